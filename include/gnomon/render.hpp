@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering one frame: settings in, channels and statistics out.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <gnomon/scene.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace gnomon {
+
+struct RenderSettings {
+    uint32_t width = 1280;   ///< Pixels, 1 to 16384.
+    uint32_t height = 720;   ///< Pixels, 1 to 16384.
+    uint32_t spp = 16;       ///< Samples per pixel, 1 to 65536.
+    uint32_t seed = 0;
+    uint32_t camera = 0;     ///< Index into Scene::cameras.
+    uint32_t shadow_res = 1024;  ///< Texels along a light view's side, 1 to 16384.
+    std::string method = "exact";
+    std::string layout = "array";  ///< A registered layout, or a folder that holds one.
+    std::string raster = "auto";   ///< analytic, conservative, or auto: what the method needs.
+    uint64_t memory_budget = 0;    ///< Most bytes of device memory; 0: half the device's heap.
+    bool keep_samples = false;     ///< Fill Frame::samples.
+};
+
+/// What one camera sample found. Index (y * width + x) * spp + s in Frame::samples.
+struct SampleRecord {
+    static constexpr uint32_t kMiss = 0xffffffffu;
+    uint32_t triangle = kMiss;  ///< Into Scene::triangles.
+    float depth = 0.0f;         ///< Metres along the view axis.
+    uint32_t lit = 0;           ///< Bit i: light i reaches the hit.
+};
+
+struct Channel {
+    std::string name;  ///< "R", "A", "visibility.0", ...
+    std::vector<float> values;  ///< width * height, rows from the top.
+};
+
+/// Seconds on the device and what passed through, by stage and buffer name. Ordered as the stages ran first.
+struct FrameStats {
+    struct Stage {
+        std::string name;
+        double seconds = 0.0;
+        uint64_t dispatches = 0;
+    };
+    std::vector<Stage> stages;
+    std::map<std::string, uint64_t> buffer_bytes;  ///< Largest size of each buffer.
+    uint64_t peak_bytes = 0;                       ///< Most device memory at one time.
+    std::map<std::string, uint64_t> counts;        ///< triangles, prisms, ranges, samples, hits, shadow_tests, ...
+    double wall_seconds = 0.0;
+    std::string device;
+};
+
+struct Frame {
+    uint32_t width = 0;
+    uint32_t height = 0;
+    uint32_t light_count = 0;
+    std::vector<Channel> channels;  ///< R G B A Z, then visibility.<i> and visibility_var.<i> for each light.
+    std::vector<SampleRecord> samples;
+    FrameStats stats;
+};
+
+/// Called now and then with the share done, 0 to 1. Returning false stops the frame.
+using Progress = std::function<bool(double)>;
+
+struct DeviceDescription {
+    uint32_t index = 0;
+    std::string name;
+    std::string type;    ///< "discrete", "integrated", "virtual", "cpu", "other"
+    std::string driver;
+    uint64_t heap_bytes = 0;
+    std::vector<std::string> missing;  ///< Required features that it lacks; empty: usable.
+    bool chosen = false;  ///< What an empty choice would use.
+};
+
+/// All Vulkan devices of this machine. An empty list where there is no driver.
+std::vector<DeviceDescription> list_devices();
+
+/// A Vulkan device with its programs. Construction is expensive, frames are not: keep one.
+class Renderer {
+public:
+    /// device: name (or part of it) or index; empty: the first hardware device, else a CPU. validate: with the Khronos
+    /// validation layer; any message then is an Error of ErrorKind::internal.
+    /// Errors: ErrorKind::no_device, naming what is missing.
+    explicit Renderer(const std::string& device = "", bool validate = false);
+    ~Renderer();
+    Renderer(Renderer&&) noexcept;
+    Renderer& operator=(Renderer&&) noexcept;
+
+    const DeviceDescription& device() const;
+
+    /// Render the scene in these poses (segments + 1 of them, see pose_scene). The scene needs a camera and may have no light.
+    /// Errors: ErrorKind::usage, input, out_of_memory, device_lost. Deterministic: same arguments, same bits.
+    Frame render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
+                 const Progress& progress = {});
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace gnomon

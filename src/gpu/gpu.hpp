@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vulkan 1.3 compute behind a few types: device, buffers, programs, a recorder. The only header through which the rest of
+// gnomon sees the GPU; Vulkan itself is included in src/gpu/*.cpp only.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <gnomon/render.hpp>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::gpu {
+
+/// How a shader sees a buffer through a (uniform) texel buffer: samplerBuffer or usamplerBuffer.
+enum class Texel { r32_float, rg32_float, rgba32_float, r32_uint, rg32_uint, rgba32_uint };
+
+struct Limits {
+    uint64_t heap_bytes = 0;             ///< Of the largest device-local heap.
+    uint64_t max_buffer_bytes = 0;       ///< One allocation.
+    uint64_t max_storage_range = 0;      ///< Bytes of one storage-buffer binding (128 MiB on lavapipe).
+    uint64_t storage_alignment = 1;      ///< Of a storage binding's offset.
+    uint64_t max_texels = 0;             ///< Elements of one texel-buffer binding.
+    uint64_t texel_alignment = 1;        ///< Of a texel binding's offset.
+    uint32_t max_groups = 65535;         ///< Along one axis of a dispatch.
+    uint32_t subgroup_size = 1;
+    bool is_cpu = false;
+};
+
+class Device;
+
+/// Device memory with a name. Move-only; freed when it goes. An empty Buffer has no device.
+class Buffer {
+public:
+    Buffer();
+    ~Buffer();
+    Buffer(Buffer&&) noexcept;
+    Buffer& operator=(Buffer&&) noexcept;
+    uint64_t bytes() const;
+    explicit operator bool() const;
+
+    struct Impl;
+    Impl* impl() const { return impl_.get(); }
+
+private:
+    friend class Device;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// SPIR-V and the name of its stage ("sample/trace").
+struct Shader {
+    std::string name;
+    std::span<const uint32_t> spirv;
+};
+
+/// A compute pipeline with what its SPIR-V declares: bindings by name, bytes of push constants, specialization constants.
+class Program {
+public:
+    Program();
+    ~Program();
+    Program(Program&&) noexcept;
+    Program& operator=(Program&&) noexcept;
+    explicit operator bool() const { return impl_ != nullptr; }
+
+    struct Impl;
+    Impl* impl() const { return impl_.get(); }
+
+private:
+    friend class Device;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// One buffer for one resource of a shader, by the resource's GLSL name (the block's name for storage buffers, the variable's name
+/// for texel buffers). `texel` is used for texel buffers only. bytes 0: to the end.
+struct Binding {
+    std::string_view name;
+    const Buffer* buffer = nullptr;
+    Texel texel = Texel::rgba32_float;
+    uint64_t offset = 0;
+    uint64_t bytes = 0;
+};
+
+/// A specialization constant by its constant_id.
+struct Constant {
+    uint32_t id = 0;
+    uint32_t value = 0;
+};
+
+struct StageTime {
+    std::string name;
+    double seconds = 0.0;
+    uint64_t dispatches = 0;
+};
+
+std::vector<DeviceDescription> list_devices();
+
+class Device {
+public:
+    /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and thrown as
+    /// ErrorKind::internal from the next submit; also see validation_messages().
+    Device(const std::string& choice, bool validate);
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceDescription& description() const;
+    const Limits& limits() const;
+    const std::vector<std::string>& validation_messages() const;
+
+    /// Uninitialised memory, usable for storage, texel, uniform and transfer. bytes 0 gives the smallest buffer.
+    /// Errors: ErrorKind::out_of_memory naming the buffer and its size; also when the budget would be passed.
+    Buffer allocate(const std::string& name, uint64_t bytes);
+
+    /// Bytes that may be allocated at one time; 0: no limit.
+    void set_budget(uint64_t bytes);
+    uint64_t live_bytes() const;
+    uint64_t peak_bytes() const;
+    std::map<std::string, uint64_t> largest_bytes() const;  ///< By buffer name.
+
+    /// Errors (ErrorKind::internal): a constant that the shader does not have.
+    Program program(const Shader& shader, std::span<const Constant> constants = {});
+
+    /// Stage times since the last reset, in order of first use.
+    std::vector<StageTime> stage_times() const;
+    void reset_statistics();  ///< Stage times, peak and largest bytes.
+
+    struct Impl;
+    Impl& impl() const { return *impl_; }
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Records stages into one command buffer, with a full memory barrier, a debug label and a pair of timestamps around each, and runs
+/// them. A Recorder may be used again after submit().
+class Recorder {
+public:
+    explicit Recorder(Device& device);
+    ~Recorder();
+    Recorder(const Recorder&) = delete;
+    Recorder& operator=(const Recorder&) = delete;
+
+    /// Run `groups` workgroups. They are spread over x and y (at most max_groups each), so the shader numbers them
+    /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and ignores those past the count that it gets in its parameters.
+    /// Every resource of the program must be bound by name, every binding must exist in it, ranges must be within the limits and
+    /// the size of params must equal the push-constant block's: else ErrorKind::internal. groups 0: nothing is recorded.
+    template <class Params>
+    void dispatch(std::string_view stage, const Program& program, std::span<const Binding> bindings, const Params& params,
+                  uint64_t groups) {
+        dispatch_bytes(stage, program, bindings, std::as_bytes(std::span(&params, 1)), groups);
+    }
+    void dispatch_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
+                        std::span<const std::byte> params, uint64_t groups);
+
+    /// vkCmdFillBuffer; bytes 0: to the end. offset and bytes are multiples of 4.
+    void fill(std::string_view stage, const Buffer& buffer, uint32_t value, uint64_t offset = 0, uint64_t bytes = 0);
+    void copy(std::string_view stage, const Buffer& from, uint64_t from_offset, const Buffer& to, uint64_t to_offset,
+              uint64_t bytes);
+
+    /// Run what was recorded and wait. Errors: ErrorKind::device_lost, out_of_memory; internal for validation messages.
+    void submit();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Write to and read from a buffer at once (mapped where the memory allows, else staged). Not while work is running.
+void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset = 0);
+void download(Device& device, const Buffer& buffer, std::span<std::byte> data, uint64_t offset = 0);
+
+template <class T>
+Buffer upload_new(Device& device, const std::string& name, const std::vector<T>& data) {
+    Buffer buffer = device.allocate(name, data.size() * sizeof(T));
+    if (!data.empty()) upload(device, buffer, std::as_bytes(std::span(data)));
+    return buffer;
+}
+
+template <class T>
+std::vector<T> download_vector(Device& device, const Buffer& buffer, uint64_t count, uint64_t offset = 0) {
+    std::vector<T> data(count);
+    if (count > 0) download(device, buffer, std::as_writable_bytes(std::span(data)), offset);
+    return data;
+}
+
+}  // namespace gnomon::gpu

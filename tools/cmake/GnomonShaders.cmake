@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: Apache-2.0
+# GLSL to SPIR-V at build time, with dependency tracking, embedded in the library.
+find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
+
+# gnomon_shader(OUT_VAR NAME SOURCE [include folder...]): compiles SOURCE (relative to comp_shaders) into a header that defines the
+# array NAME, and appends the header to OUT_VAR.
+function(gnomon_shader out_var name source)
+  set(input ${PROJECT_SOURCE_DIR}/comp_shaders/${source})
+  set(header ${PROJECT_BINARY_DIR}/shaders/${name}.spv.h)
+  set(includes "")
+  foreach(folder ${ARGN})
+    list(APPEND includes -I${PROJECT_SOURCE_DIR}/comp_shaders/${folder})
+  endforeach()
+  add_custom_command(
+    OUTPUT ${header}
+    COMMAND ${CMAKE_COMMAND} -E make_directory ${PROJECT_BINARY_DIR}/shaders
+    COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.3 -I${PROJECT_SOURCE_DIR}/comp_shaders ${includes}
+            --depfile ${header}.d --vn ${name} -o ${header} ${input}
+    DEPENDS ${input}
+    DEPFILE ${header}.d
+    COMMENT "Shader ${source}"
+    VERBATIM)
+  set(${out_var} ${${out_var}} ${header} PARENT_SCOPE)
+endfunction()

@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: Apache-2.0
+# What every target of ours is compiled with.
+option(GNOMON_ASSERTS "Keep asserts in optimised builds" OFF)
+option(GNOMON_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+
+function(gnomon_configure target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  # -ffp-contract=off: the headers shared with the shaders must give the shaders' bits.
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+  target_compile_definitions(${target} PUBLIC GLM_FORCE_XYZW_ONLY)
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/comp_shaders)
+  if(GNOMON_ASSERTS)
+    target_compile_options(${target} PRIVATE -UNDEBUG)
+  endif()
+  if(GNOMON_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()
+
+# A part of the library: gnomon_part(NAME source...) makes the static library gnomon_NAME.
+function(gnomon_part name)
+  add_library(gnomon_${name} STATIC ${ARGN})
+  gnomon_configure(gnomon_${name})
+  set_target_properties(gnomon_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON EXPORT_NAME ${name})
+  target_include_directories(gnomon_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>
+    $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_link_libraries(gnomon_${name} PUBLIC glm::glm)
+endfunction()
