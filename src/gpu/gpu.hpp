@@ -20,35 +20,36 @@ namespace gnomon::gpu {
 enum class Texel { r32_float, rg32_float, rgba32_float, r32_uint, rg32_uint, rgba32_uint };
 
 struct Limits {
-    uint64_t heap_bytes = 0;             ///< Of the largest device-local heap.
-    uint64_t max_buffer_bytes = 0;       ///< One allocation.
-    uint64_t max_storage_range = 0;      ///< Bytes of one storage-buffer binding (128 MiB on lavapipe).
-    uint64_t storage_alignment = 1;      ///< Of a storage binding's offset.
-    uint64_t max_texels = 0;             ///< Elements of one texel-buffer binding.
-    uint64_t texel_alignment = 1;        ///< Of a texel binding's offset.
-    uint32_t max_groups = 65535;         ///< Along one axis of a dispatch.
+    uint64_t heap_bytes = 0;         ///< Of the largest device-local heap.
+    uint64_t max_buffer_bytes = 0;   ///< One allocation.
+    uint64_t max_storage_range = 0;  ///< Bytes of one storage-buffer binding (128 MiB on lavapipe).
+    uint64_t storage_alignment = 1;  ///< Of a storage binding's offset.
+    uint64_t max_texels = 0;         ///< Elements of one texel-buffer binding.
+    uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
+    uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
     uint32_t subgroup_size = 1;
     bool is_cpu = false;
 };
 
 class Device;
 
-/// Device memory with a name. Move-only; freed when it goes. An empty Buffer has no device.
+/// Device memory with a name. Move-only; freed when it goes, or, if recorded work still needs it, when that work is done. May
+/// outlive its Device object. An empty Buffer has no device.
 class Buffer {
 public:
     Buffer();
     ~Buffer();
     Buffer(Buffer&&) noexcept;
     Buffer& operator=(Buffer&&) noexcept;
-    uint64_t bytes() const;
+    uint64_t bytes() const;  ///< As asked for; of the smallest buffer, 16.
     explicit operator bool() const;
 
     struct Impl;
-    Impl* impl() const { return impl_.get(); }
+    const std::shared_ptr<Impl>& impl() const { return impl_; }
 
 private:
     friend class Device;
-    std::unique_ptr<Impl> impl_;
+    std::shared_ptr<Impl> impl_;
 };
 
 /// SPIR-V and the name of its stage ("sample/trace").
@@ -67,15 +68,16 @@ public:
     explicit operator bool() const { return impl_ != nullptr; }
 
     struct Impl;
-    Impl* impl() const { return impl_.get(); }
+    const std::shared_ptr<Impl>& impl() const { return impl_; }
 
 private:
     friend class Device;
-    std::unique_ptr<Impl> impl_;
+    std::shared_ptr<Impl> impl_;
 };
 
-/// One buffer for one resource of a shader, by the resource's GLSL name (the block's name for storage buffers, the variable's name
-/// for texel buffers). `texel` is used for texel buffers only. bytes 0: to the end.
+/// One buffer for one resource of a shader, by the resource's GLSL name (the block's name for storage and uniform buffers, the
+/// variable's name for texel buffers). `texel` is used for texel buffers only. bytes 0: to the end (of a texel buffer: its last
+/// texel may reach beyond Buffer::bytes).
 struct Binding {
     std::string_view name;
     const Buffer* buffer = nullptr;
@@ -100,8 +102,8 @@ std::vector<DeviceDescription> list_devices();
 
 class Device {
 public:
-    /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and thrown as
-    /// ErrorKind::internal from the next submit; also see validation_messages().
+    /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and
+    /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
     Device(const std::string& choice, bool validate);
     ~Device();
     Device(const Device&) = delete;
@@ -115,13 +117,15 @@ public:
     /// Errors: ErrorKind::out_of_memory naming the buffer and its size; also when the budget would be passed.
     Buffer allocate(const std::string& name, uint64_t bytes);
 
-    /// Bytes that may be allocated at one time; 0: no limit.
+    /// Bytes of buffers that may be allocated at one time; 0: no limit. Where upload and download have to stage, they use 32
+    /// MiB of host memory besides.
     void set_budget(uint64_t bytes);
     uint64_t live_bytes() const;
     uint64_t peak_bytes() const;
     std::map<std::string, uint64_t> largest_bytes() const;  ///< By buffer name.
 
-    /// Errors (ErrorKind::internal): a constant that the shader does not have.
+    /// Errors: ErrorKind::internal for a constant that the shader does not have, and for a shader with resources other than
+    /// storage buffers, uniform buffers and (u)samplerBuffers in set 0; no_device if it needs more than the device allows.
     Program program(const Shader& shader, std::span<const Constant> constants = {});
 
     /// Stage times since the last reset, in order of first use.
@@ -129,14 +133,14 @@ public:
     void reset_statistics();  ///< Stage times, peak and largest bytes.
 
     struct Impl;
-    Impl& impl() const { return *impl_; }
+    const std::shared_ptr<Impl>& impl() const { return impl_; }
 
 private:
-    std::unique_ptr<Impl> impl_;
+    std::shared_ptr<Impl> impl_;
 };
 
-/// Records stages into one command buffer, with a full memory barrier, a debug label and a pair of timestamps around each, and runs
-/// them. A Recorder may be used again after submit().
+/// Records stages into one command buffer, with a full memory barrier, a debug label and a pair of timestamps around each, and
+/// runs them. A Recorder may be used again after submit().
 class Recorder {
 public:
     explicit Recorder(Device& device);
@@ -145,9 +149,10 @@ public:
     Recorder& operator=(const Recorder&) = delete;
 
     /// Run `groups` workgroups. They are spread over x and y (at most max_groups each), so the shader numbers them
-    /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and ignores those past the count that it gets in its parameters.
-    /// Every resource of the program must be bound by name, every binding must exist in it, ranges must be within the limits and
-    /// the size of params must equal the push-constant block's: else ErrorKind::internal. groups 0: nothing is recorded.
+    /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and ignores those past the count that it gets in its
+    /// parameters. Every resource of the program must be bound by name, every binding must exist in it, ranges must be within
+    /// the limits and the size of params must equal the push-constant block's: else ErrorKind::internal. groups 0: checked, but
+    /// nothing is recorded.
     template <class Params>
     void dispatch(std::string_view stage, const Program& program, std::span<const Binding> bindings, const Params& params,
                   uint64_t groups) {

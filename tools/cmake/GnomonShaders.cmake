@@ -2,10 +2,10 @@
 # GLSL to SPIR-V at build time, with dependency tracking, embedded in the library.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 
-# gnomon_shader(OUT_VAR NAME SOURCE [include folder...]): compiles SOURCE (relative to comp_shaders) into a header that defines the
-# array NAME, and appends the header to OUT_VAR.
+# gnomon_shader(OUT_VAR NAME SOURCE [include folder...]): compiles SOURCE (relative to comp_shaders, or absolute) into a header that
+# defines the array NAME, and appends the header to OUT_VAR.
 function(gnomon_shader out_var name source)
-  set(input ${PROJECT_SOURCE_DIR}/comp_shaders/${source})
+  cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/comp_shaders OUTPUT_VARIABLE input)
   set(header ${PROJECT_BINARY_DIR}/shaders/${name}.spv.h)
   set(includes "")
   foreach(folder ${ARGN})

@@ -1,0 +1,26 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: split the large prisms of one cell into blocks of kBlockTiles tiles, one workgroup of bin/large each.
+// Reads:   rects of the cell
+// Writes:  Blocks (triangle; block number | cell << 20), BlockCount (next free place)
+// Grid:    one invocation per triangle
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "shared/rect.h"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform usamplerBuffer rects;
+layout(binding = 1, scalar) writeonly buffer Blocks { uvec2 blocks[]; };
+layout(binding = 2, scalar) buffer BlockCount { uint block_count; };
+layout(push_constant, scalar) uniform Push { BinParams params; };
+
+void main() {
+    uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    bool inside = triangle < params.grid.triangle_count;
+    Rect rect = unpack_rect(texelFetch(rects, int(min(triangle, params.grid.triangle_count - 1u))).xy);
+    bool large = inside && rect.seen != 0u && rect_is_large(rect.first, rect.last, rect.in_front);
+    uint count = large ? rect_blocks(rect.first, rect.last) : 0u;
+    uint place = 0u;
+    if (count > 0u) place = atomicAdd(block_count, count);
+    for (uint i = 0u; i < count; ++i) blocks[place + i] = uvec2(triangle, i | (params.cell << 20u));
+}

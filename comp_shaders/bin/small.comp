@@ -1,0 +1,41 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: list small prisms in the tiles of their bounds, for one cell. Count, or fill after the scan.
+// Reads:   rects of the cell
+// Writes:  Lists (count: entries per list; fill: the next free place of each list), Entries (fill)
+// Grid:    one invocation per triangle
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "shared/rect.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kFill = false;
+layout(binding = 0) uniform usamplerBuffer rects;
+layout(binding = 1, scalar) buffer Lists { uint lists[]; };
+layout(binding = 2, scalar) writeonly buffer Entries { uint entries[]; };
+layout(push_constant, scalar) uniform Push { BinParams params; };
+
+void main() {
+    uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    bool inside = triangle < params.grid.triangle_count;
+    Rect rect = unpack_rect(texelFetch(rects, int(min(triangle, params.grid.triangle_count - 1u))).xy);
+    bool listed = inside && rect.seen != 0u && !rect_is_large(rect.first, rect.last, rect.in_front);
+    uint copies = rect.seen == 3u ? 2u : 1u;
+    uint first_entry = triangle | (rect.seen == 2u ? kReversed : 0u);
+    uvec2 tile = rect.first;
+    bool more;
+    do {
+        uint list = (tile.y * params.grid.tiles_x + tile.x) * params.grid.cell_count + params.cell;
+        if (listed) {
+            uint place = atomicAdd(lists[list], copies);
+            if (kFill) {
+                entries[place] = first_entry;
+                if (copies == 2u) entries[place + 1u] = triangle | kReversed;
+            }
+        }
+        bool row_ends = tile.x == rect.last.x;
+        tile.x = row_ends ? rect.first.x : tile.x + 1u;
+        tile.y += row_ends ? 1u : 0u;
+        more = listed && tile.y <= rect.last.y;
+    } while (more);
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the samples of a batch lie in memory: slot = ((tile * strata + stratum) * 8 + row) * 8 + column, tile and stratum counted from the batch's first.
+#include "math/sample.h"
+
+struct Slot {
+    uint tile;     // From the batch's first.
+    uint stratum;
+    uint row;
+    uint column;
+};
+
+Slot unpack_slot(uint slot, uint stratum_count) {
+    Slot s;
+    s.column = slot & 7u;
+    s.row = (slot >> 3u) & 7u;
+    uint item = slot >> 6u;
+    s.tile = item / stratum_count;
+    s.stratum = item - s.tile * stratum_count;
+    return s;
+}
+
+uvec2 slot_pixel(Slot s, uint tile_first, uint tiles_x) {
+    uint tile = tile_first + s.tile;
+    uint tile_y = tile / tiles_x;
+    return uvec2((tile - tile_y * tiles_x) * kTileSize + s.column, tile_y * kTileSize + s.row);
+}

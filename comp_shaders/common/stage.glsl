@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every stage includes first: extensions and the number of its workgroup.
+#extension GL_EXT_scalar_block_layout : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shared/params.h"
+
+uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fetching moving triangles in raster space. Needs: usamplerBuffer triangles (vertex 0, 1, 2, material), samplerBuffer raster_vertices (key-major).
+#include "math/cover.h"
+
+// The vertices at a segment's start (a) and their motion until its end (d).
+struct MovingTriangle {
+    vec4 a0, a1, a2;
+    vec4 d0, d1, d2;
+};
+
+// `entry` is a list's entry: a triangle, reversed or not.
+MovingTriangle fetch_moving_triangle(uint entry, uint key_first, uint vertex_stride) {
+    uvec3 v = texelFetch(triangles, int(entry & ~kReversed)).xyz;
+    bool reversed = (entry & kReversed) != 0u;
+    uint i0 = key_first + v.x;
+    uint i1 = key_first + (reversed ? v.z : v.y);
+    uint i2 = key_first + (reversed ? v.y : v.z);
+    MovingTriangle m;
+    m.a0 = texelFetch(raster_vertices, int(i0));
+    m.a1 = texelFetch(raster_vertices, int(i1));
+    m.a2 = texelFetch(raster_vertices, int(i2));
+    m.d0 = texelFetch(raster_vertices, int(i0 + vertex_stride)) - m.a0;
+    m.d1 = texelFetch(raster_vertices, int(i1 + vertex_stride)) - m.a1;
+    m.d2 = texelFetch(raster_vertices, int(i2 + vertex_stride)) - m.a2;
+    return m;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// S-buffer layout "array": all ranges of a list side by side, lists in order, offsets from a prefix sum of exact counts.
+// Memory: 16 bytes per range, 4 bytes per list twice (offsets, and the fill's cursors).
+
+#ifdef LAYOUT_WRITE
+#define LAYOUT_CURSOR  // The place of a list's next range is kept in a register between emits.
+layout(binding = 16, scalar) buffer ListOffsets { uint list_offsets[]; };
+layout(binding = 17, scalar) buffer ListCursors { uint list_cursors[]; };
+layout(binding = 18, scalar) writeonly buffer Ranges { vec4 ranges[]; };
+
+void layout_count(uint list, uint count, bool first) { list_offsets[list] = count + (first ? 0u : list_offsets[list]); }
+uint layout_cursor(uint list) { return list_cursors[list]; }
+void layout_set_cursor(uint list, uint cursor) { list_cursors[list] = cursor; }
+void layout_emit(uint cursor, vec4 range) { ranges[cursor - range_base()] = range; }
+#endif
+
+#ifdef LAYOUT_READ
+layout(binding = 16) uniform usamplerBuffer list_offsets;
+layout(binding = 17) uniform samplerBuffer ranges;
+
+// x: the next range, y: the end of the list.
+ListIterator layout_begin(uint list) { return ListIterator(texelFetch(list_offsets, int(list)).x, texelFetch(list_offsets, int(list + 1u)).x); }
+ListIterator layout_end() { return ListIterator(0u, 0u); }
+bool layout_more(ListIterator it) { return it.x < it.y; }
+vec4 layout_next(inout ListIterator it) { return texelFetch(ranges, int(it.x++ - range_base())); }
+#endif

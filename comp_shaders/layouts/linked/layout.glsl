@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// S-buffer layout "linked": a linked list per texel and cell, nodes from a global counter in the order of arrival.
+// Based on: Yang et al. 2010, "Real-time concurrent linked list construction on the GPU"; the papers of 2017 and 2018 use it.
+// Memory: 16 bytes per range and 4 for its link, 4 bytes per list.
+
+#ifdef LAYOUT_WRITE
+layout(binding = 16, scalar) buffer ListHeads { uint list_heads[]; };
+layout(binding = 17, scalar) writeonly buffer Ranges { vec4 ranges[]; };
+layout(binding = 18, scalar) writeonly buffer Links { uint links[]; };
+layout(binding = 19, scalar) buffer NodeCount { uint node_count; };
+
+void layout_count(uint list, uint count, bool first) {}
+void layout_emit(uint list, vec4 range) {
+    uint node = atomicAdd(node_count, 1u);
+    ranges[node - range_base()] = range;
+    links[node - range_base()] = atomicExchange(list_heads[list], node);
+}
+#endif
+
+#ifdef LAYOUT_READ
+layout(binding = 16) uniform usamplerBuffer list_heads;
+layout(binding = 17) uniform samplerBuffer ranges;
+layout(binding = 18) uniform usamplerBuffer links;
+
+// x: the next node, or kNone.
+ListIterator layout_begin(uint list) { return ListIterator(texelFetch(list_heads, int(list)).x, 0u); }
+ListIterator layout_end() { return ListIterator(kNone, 0u); }
+bool layout_more(ListIterator it) { return it.x != kNone; }
+vec4 layout_next(inout ListIterator it) {
+    int node = int(it.x - range_base());
+    it.x = texelFetch(links, node).x;
+    return texelFetch(ranges, node);
+}
+#endif

@@ -1,0 +1,151 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: the ranges of each texel, conservative: every time at which a triangle may cover any point of the texel lies in its range, and its nearest depth is not
+//          behind the triangle anywhere. Count, or fill after the layout's own preparation.
+// Reads:   bin_offsets, bin_entries, triangles, raster_vertices
+// Writes:  RangeCounts (64 bits per kCountBlock items), and what the layout says
+// Grid:    8 invocations per tile and cell: one per column of texels, its 8 rows in registers
+// Source:  math/range.h
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "math/orientation.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kFill = false;
+layout(constant_id = 1) const bool kOrthographic = false;
+layout(binding = 0) uniform usamplerBuffer bin_offsets;
+layout(binding = 1) uniform usamplerBuffer bin_entries;
+layout(binding = 2) uniform usamplerBuffer triangles;
+layout(binding = 3) uniform samplerBuffer raster_vertices;
+layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
+layout(binding = 5, scalar) buffer Ticket { uint ticket; };
+layout(push_constant, scalar) uniform Push { RasterParams params; };
+#include "common/triangle.glsl"
+#include "common/cell.glsl"
+#include "common/ticket.glsl"
+#include "common/range_count.glsl"
+uint range_base() { return params.range_first; }
+#define LAYOUT_WRITE
+#include "layout.glsl"
+
+const float kReach = 0.5 * float(kTileSize);
+
+// A lower bound of the triangle's depth during the cell.
+float nearest_depth(CellTriangle c) {
+    if (kOrthographic) {
+        float z = min(min_of(c.a0.z, c.a1.z, c.a2.z), min_of(c.b0.z, c.b1.z, c.b2.z));
+        return z - abs(z) * (4.0 / 16777216.0);
+    }
+    float w = min(min_of(c.a0.w, c.a1.w, c.a2.w), min_of(c.b0.w, c.b1.w, c.b2.w));
+    return w > 0.0 ? -(1.0 + 8.0 / 16777216.0) / w : -3.4e38;
+}
+
+void main() {
+    uint item = params.item_first + take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u);
+    uint lane = gl_LocalInvocationID.x & 7u;
+    ViewGrid grid = params.grid;
+    bool inside = item < params.item_first + params.item_count;
+    item = min(item, params.item_first + params.item_count - 1u);
+    uint tile = item / grid.cell_count;
+    uint cell = item - tile * grid.cell_count;
+    uint tile_y = tile / grid.tiles_x;
+    uint tile_x = tile - tile_y * grid.tiles_x;
+    vec2 centre = tile_centre(grid, tile_x, tile_y);
+    float x = float(lane) - 3.5;
+    float extent = grid_extent(grid);
+    uint key_first = segment_of_cell(grid, cell) * grid.vertex_stride;
+    vec2 span = cell_span(grid, cell);
+    float slack = time_slack(grid.cell_count);
+    float cell_start = float(cell);
+    float per_cell = 1.0 / float(grid.cell_count);
+
+    uint begin = texelFetch(bin_offsets, int(item)).x;
+    uint end = texelFetch(bin_offsets, int(item + 1u)).x;
+    uint k = begin + params.list_first;
+    end = inside ? min(end, k + kListChunk) : k;
+
+    // Lists of this column's texels, counted from the dispatch's first; texels outside the image get no ranges.
+    uint list_first = (item - params.item_first) * kTileTexels + lane;
+    const uint list_step = kTileSize;
+    uint rows = inside && tile_x * kTileSize + lane < grid.width ? min(grid.height - tile_y * kTileSize, kTileSize) : 0u;
+    uint row_mask = (1u << rows) - 1u;
+
+    uint count[8];
+    [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] = 0u;
+#ifdef LAYOUT_CURSOR
+    if (kFill) {
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] = r < rows ? layout_cursor(list_first + r * list_step) : 0u;
+    }
+#endif
+
+    while (k < end) {
+        uint entry = texelFetch(bin_entries, int(k)).x;
+        CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
+        vec3 a0 = tile_relative(c.a0, centre.x, centre.y), a1 = tile_relative(c.a1, centre.x, centre.y), a2 = tile_relative(c.a2, centre.x, centre.y);
+        vec3 b0 = tile_relative(c.b0, centre.x, centre.y), b1 = tile_relative(c.b1, centre.x, centre.y), b2 = tile_relative(c.b2, centre.x, centre.y);
+        BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, kReach, 0.5, extent);
+        EdgeBound e0 = edge_bound(a1, a2, b1, b2, scale, kReach);
+        EdgeBound e1 = edge_bound(a2, a0, b2, b0, scale, kReach);
+        EdgeBound e2 = edge_bound(a0, a1, b0, b1, scale, kReach);
+        // Along the column both ends of every bound are linear in the row.
+        vec3 start = vec3(e0.start.x, e1.start.x, e2.start.x) * x + vec3(e0.start.z, e1.start.z, e2.start.z);
+        vec3 start_step = vec3(e0.start.y, e1.start.y, e2.start.y);
+        vec3 finish = vec3(e0.end.x, e1.end.x, e2.end.x) * x + vec3(e0.end.z, e1.end.z, e2.end.z);
+        vec3 finish_step = vec3(e0.end.y, e1.end.y, e2.end.y);
+        uint hits = 0u;
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+            float y = float(r) - 3.5;
+            vec3 s = start_step * y + start;
+            vec3 f = finish_step * y + finish;
+            float lo = 0.0, hi = 1.0, highest = 0.0;
+            clip_to_bound(s.x, f.x, lo, hi, highest);
+            clip_to_bound(s.y, f.y, lo, hi, highest);
+            clip_to_bound(s.z, f.z, lo, hi, highest);
+            bool hit = highest >= 0.0 && lo - slack <= hi + slack;
+            hits |= hit ? 1u << r : 0u;
+        }
+        hits &= row_mask;
+        if (!kFill) {
+            [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] += (hits >> r) & 1u;
+        } else {
+            float nearest = nearest_depth(c);
+            while (hits != 0u) {
+                uint r = uint(findLSB(hits));
+                hits &= hits - 1u;
+                float y = float(r) - 3.5;
+                vec3 s = start_step * y + start;
+                vec3 f = finish_step * y + finish;
+                float lo = 0.0, hi = 1.0, highest = 0.0;
+                clip_to_bound(s.x, f.x, lo, hi, highest);
+                clip_to_bound(s.y, f.y, lo, hi, highest);
+                clip_to_bound(s.z, f.z, lo, hi, highest);
+                vec4 range = vec4((cell_start + (lo - slack)) * per_cell, (cell_start + (hi + slack)) * per_cell, nearest, uintBitsToFloat(entry));
+#ifdef LAYOUT_CURSOR
+                uint cursor = 0u;
+                [[unroll]] for (uint q = 0u; q < 8u; ++q) {
+                    cursor = q == r ? count[q] : cursor;
+                    count[q] += q == r ? 1u : 0u;
+                }
+                layout_emit(cursor, range);
+#else
+                layout_emit(list_first + r * list_step, range);
+#endif
+            }
+        }
+        ++k;
+    }
+    if (!kFill) {
+        uint sum = 0u;
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+            if (r < rows) layout_count(list_first + r * list_step, count[r], params.list_first == 0u);
+            sum += count[r];
+        }
+        add_range_count(item / kCountBlock, inside ? sum : 0u);
+    } else {
+#ifdef LAYOUT_CURSOR
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+            if (r < rows) layout_set_cursor(list_first + r * list_step, count[r]);
+        }
+#endif
+    }
+}

@@ -1,0 +1,32 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: the queue of the shadow test: the slots that hit something, in order.
+// Reads:   hits, runs (scanned)
+// Writes:  Queue
+// Grid:    one invocation per run
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform usamplerBuffer hits;
+layout(binding = 1) uniform usamplerBuffer runs;
+layout(binding = 2, scalar) writeonly buffer Queue { uint queue[]; };
+layout(push_constant, scalar) uniform Push { CompactParams params; };
+
+void main() {
+    uint run = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (run >= params.run_count) return;
+    uint place = texelFetch(runs, int(run)).x;
+    uint slot = run * kScanRun;
+    uint end = slot + kScanRun;
+    do {
+        uvec4 h = texelFetch(hits, int(slot / 4u));
+        [[unroll]] for (uint j = 0u; j < 4u; ++j) {
+            if (h[j] != kNone) {
+                queue[place] = slot + j;
+                ++place;
+            }
+        }
+        slot += 4u;
+    } while (slot < end);
+}

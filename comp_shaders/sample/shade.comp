@@ -1,0 +1,155 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: reflected light of each sample of the batch, added to the film in the order of the strata.
+// Reads:   hits, lit, triangles, raster_vertices, positions, normals, attributes, materials, texels, srgb_to_linear, lights
+// Writes:  Film (shared/film.h), Depths (per slot, when kDepths)
+// Grid:    one invocation per pixel of the batch's tiles
+// Source:  Lambert; KHR_lights_punctual for the falloff of spots
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "shared/film.h"
+#include "math/range.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kOrthographic = false;
+layout(constant_id = 1) const bool kStraddle = false;  // As in sample/trace.
+layout(constant_id = 2) const bool kDepths = false;
+layout(constant_id = 3) const bool kTextures = false;
+layout(binding = 0) uniform usamplerBuffer hits;
+layout(binding = 1) uniform usamplerBuffer lit;
+layout(binding = 2) uniform usamplerBuffer triangles;
+layout(binding = 3) uniform samplerBuffer raster_vertices;
+layout(binding = 4) uniform samplerBuffer positions;
+layout(binding = 5) uniform samplerBuffer normals;
+layout(binding = 6) uniform samplerBuffer attributes;
+layout(binding = 7) uniform usamplerBuffer materials;
+layout(binding = 8) uniform usamplerBuffer texels;
+layout(binding = 9) uniform samplerBuffer srgb_to_linear;
+layout(binding = 10) uniform samplerBuffer lights;
+layout(binding = 11, scalar) buffer Film { float film[]; };
+layout(binding = 12, scalar) writeonly buffer Depths { float depths[]; };
+layout(push_constant, scalar) uniform Push { ShadeParams params; };
+#include "common/triangle.glsl"
+#include "common/batch.glsl"
+#include "common/receiver.glsl"
+#include "common/texture.glsl"
+
+vec3 blend(vec3 a, vec3 b, vec3 c, vec3 weights) { return weights.x * a + weights.y * b + weights.z * c; }
+
+vec3 world_at(samplerBuffer source, uint vertex, Receiver h) {
+    int i = int(h.segment * params.grid.vertex_stride + vertex);
+    return mix(texelFetch(source, i).xyz, texelFetch(source, i + int(params.grid.vertex_stride)).xyz, h.local_time);
+}
+
+// Shortest spherical interpolation of unit quaternions (x, y, z, w).
+vec4 slerp(vec4 a, vec4 b, float s) {
+    float c = dot(a, b);
+    b = c < 0.0 ? -b : b;
+    float angle = acos(clamp(abs(c), 0.0, 1.0));
+    float sine = sin(angle);
+    bool close = sine < 1e-4;
+    vec4 q = close ? mix(a, b, s) : (a * sin((1.0 - s) * angle) + b * sin(s * angle)) / sine;
+    return normalize(q);
+}
+
+// -Z of a frame turned by the quaternion.
+vec3 forward_of(vec4 q) {
+    return -vec3(2.0 * (q.x * q.z + q.w * q.y), 2.0 * (q.y * q.z - q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
+}
+
+// Incoming light times cosine, without visibility.
+vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
+    int head = int(light * (kLightHead + kLightPerKey * params.key_count));
+    vec4 color_kind = texelFetch(lights, head);
+    vec4 cone = texelFetch(lights, head + 1);
+    int key = head + int(kLightHead + kLightPerKey * h.segment);
+    vec3 origin = mix(texelFetch(lights, key).xyz, texelFetch(lights, key + 2).xyz, h.local_time);
+    vec3 axis = forward_of(slerp(texelFetch(lights, key + 1), texelFetch(lights, key + 3), h.local_time));
+    bool spot = floatBitsToUint(color_kind.w) == kLightSpot;
+    vec3 to_light = spot ? origin - position : -axis;
+    float distance2 = max(dot(to_light, to_light), 1e-12);
+    vec3 l = to_light * inversesqrt(distance2);
+    float cone_factor = clamp(-dot(axis, l) * cone.x + cone.y, 0.0, 1.0);
+    float ratio2 = cone.z > 0.0 ? distance2 / (cone.z * cone.z) : 0.0;
+    float window = clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
+    float falloff = spot ? cone_factor * cone_factor * window / distance2 : 1.0;
+    return color_kind.xyz * (falloff * max(dot(normal, l), 0.0));
+}
+
+void main() {
+    uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    ViewGrid grid = params.grid;
+    bool inside = i < params.tile_count * kTileTexels;
+    uint tile_in_batch = min(i / kTileTexels, params.tile_count - 1u);
+    uint texel = i & (kTileTexels - 1u);
+    Slot slot = Slot(tile_in_batch, 0u, texel >> 3u, texel & 7u);
+    uvec2 pixel = slot_pixel(slot, params.tile_first, grid.tiles_x);
+    inside = inside && pixel.x < grid.width && pixel.y < grid.height;
+
+    // The sums go on from the film's, one sample at a time, so that they do not depend on how the strata are split into batches.
+    uint plane = grid.width * grid.height;
+    uint at = inside ? pixel.y * grid.width + pixel.x : 0u;
+    vec3 color = vec3(film[kFilmRed * plane + at], film[kFilmGreen * plane + at], film[kFilmBlue * plane + at]);
+    float hit_count = film[kFilmHits * plane + at];
+    float depth_sum = film[kFilmDepth * plane + at];
+    uint s = inside ? 0u : params.stratum_count;
+    while (s < params.stratum_count) {
+        // On to the next sample that hit something, so that all invocations of a subgroup shade.
+        uint place, entry;
+        do {
+            place = (tile_in_batch * params.stratum_count + s) * kTileTexels + texel;
+            entry = texelFetch(hits, int(place)).x;
+            ++s;
+        } while (entry == kNone && s < params.stratum_count);
+        if (entry != kNone) {
+            Receiver h = fetch_receiver(entry, pixel, params.stratum_first + s - 1u, params.spp, params.seed, grid, kStraddle, kOrthographic);
+            vec3 w0 = world_at(positions, h.vertex.x, h), w1 = world_at(positions, h.vertex.y, h), w2 = world_at(positions, h.vertex.z, h);
+            vec3 position = blend(w0, w1, w2, h.barycentrics);
+            // Seen in positive orientation, the normal of the triangle's own winding points away from the camera.
+            vec3 geometric = normalize(cross3(w1 - w0, w2 - w0)) * ((entry & kReversed) != 0u ? 1.0 : -1.0);
+            vec3 normal = blend(world_at(normals, h.vertex.x, h), world_at(normals, h.vertex.y, h), world_at(normals, h.vertex.z, h), h.barycentrics);
+            float length2 = dot(normal, normal);
+            normal = length2 > 1e-20 ? normal * inversesqrt(length2) : geometric;
+            normal = dot(normal, geometric) < 0.0 ? -normal : normal;
+
+            int a0 = int(2u * h.vertex.x), a1 = int(2u * h.vertex.y), a2 = int(2u * h.vertex.z);
+            vec3 tint = blend(texelFetch(attributes, a0 + 1).xyz, texelFetch(attributes, a1 + 1).xyz, texelFetch(attributes, a2 + 1).xyz, h.barycentrics);
+            vec3 albedo = tint * uintBitsToFloat(texelFetch(materials, int(2u * h.material)).xyz);
+            if (kTextures) {
+                uvec4 image = texelFetch(materials, int(2u * h.material + 1u));
+                vec2 uv = blend(texelFetch(attributes, a0).xyz, texelFetch(attributes, a1).xyz, texelFetch(attributes, a2).xyz, h.barycentrics).xy;
+                bool textured = image.x != kNone;
+                vec4 sampled = sample_texture(textured ? image : uvec4(0u, 1u, 1u, 0u), uv);
+                albedo *= textured ? sampled.xyz : vec3(1.0);
+            }
+            uint mask = texelFetch(lit, int(place)).x;
+            for (uint light = 0u; light < params.light_count; ++light) {
+                bool visible = ((mask >> light) & 1u) != 0u;
+                vec3 arriving = incoming(light, h, position, normal);
+                color += visible ? albedo * arriving * (1.0 / 3.14159265358979) : vec3(0.0);
+            }
+            float metres = kOrthographic ? h.depth : -1.0 / h.depth;
+            hit_count += 1.0;
+            depth_sum += metres;
+            if (kDepths) depths[place] = metres;
+        }
+    }
+    if (inside) {
+        film[kFilmRed * plane + at] = color.x;
+        film[kFilmGreen * plane + at] = color.y;
+        film[kFilmBlue * plane + at] = color.z;
+        film[kFilmHits * plane + at] = hit_count;
+        film[kFilmDepth * plane + at] = depth_sum;
+    }
+    for (uint light = 0u; light < params.light_count; ++light) {
+        uint visible = 0u;
+        uint stratum = 0u;
+        do {
+            int place = int((tile_in_batch * params.stratum_count + stratum) * kTileTexels + texel);
+            bool hit = texelFetch(hits, place).x != kNone;
+            visible += hit ? (texelFetch(lit, place).x >> light) & 1u : 0u;
+            ++stratum;
+        } while (stratum < params.stratum_count);
+        if (inside) film[(kFilmVisibility + light) * plane + at] += float(visible);
+    }
+}

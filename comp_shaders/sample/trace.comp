@@ -1,0 +1,111 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: the nearest triangle at each camera sample.
+// Reads:   bin_offsets, bin_entries, triangles, raster_vertices
+// Writes:  Hits (per slot of the batch: the list entry, a triangle and its orientation, or kNone)
+// Grid:    8 invocations per tile and stratum of time: one per column of pixels, its 8 rows in registers
+// Source:  math/cover.h
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kOrthographic = false;
+layout(constant_id = 1) const bool kStraddle = false;  // A stratum may lie in several cells.
+layout(constant_id = 2) const bool kContinue = false;  // Go on from the hits of an earlier part of the lists.
+layout(binding = 0) uniform usamplerBuffer bin_offsets;
+layout(binding = 1) uniform usamplerBuffer bin_entries;
+layout(binding = 2) uniform usamplerBuffer triangles;
+layout(binding = 3) uniform samplerBuffer raster_vertices;
+layout(binding = 4, scalar) buffer Hits { uint hits[]; };
+layout(binding = 5, scalar) buffer Ticket { uint ticket; };
+layout(push_constant, scalar) uniform Push { TraceParams params; };
+#include "common/triangle.glsl"
+#include "common/ticket.glsl"
+#include "common/batch.glsl"
+
+struct Best {
+    float depth;
+    uint entry;
+};
+
+// Keep the nearer surface; of equally near ones the lower triangle, so that the order of a list does not matter.
+void test(MovingTriangle m, uint entry, vec3 xys, inout Best best) {
+    vec4 p0 = vertex_at(m.a0, m.d0, xys.z);
+    vec4 p1 = vertex_at(m.a1, m.d1, xys.z);
+    vec4 p2 = vertex_at(m.a2, m.d2, xys.z);
+    vec3 e = edges_at(p0, p1, p2, xys.x, xys.y);
+    float depth = kOrthographic ? depth_orthographic(e, p0, p1, p2) : depth_perspective(e, p0, p1, p2);
+    bool nearer = depth < best.depth || (depth == best.depth && (entry & ~kReversed) < (best.entry & ~kReversed));
+    bool hit = covers(e) && depth > params.depth_near && nearer;
+    best.depth = hit ? depth : best.depth;
+    best.entry = hit ? entry : best.entry;
+}
+
+void main() {
+    ViewGrid grid = params.grid;
+    uint item_count = params.tile_count * params.stratum_count;
+    uint item = take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u);
+    uint lane = gl_LocalInvocationID.x & 7u;
+    bool inside = item < item_count;
+    item = min(item, item_count - 1u);
+    uint tile_in_batch = item / params.stratum_count;
+    uint stratum = params.stratum_first + item - tile_in_batch * params.stratum_count;
+    uint tile = params.tile_first + tile_in_batch;
+    uint tile_y = tile / grid.tiles_x;
+    uint tile_x = tile - tile_y * grid.tiles_x;
+    uint slot = item * kTileTexels + lane;
+
+    // x and y in raster space, t in the shutter.
+    vec3 point[8];
+    Best best[8];
+    uint x_px = tile_x * kTileSize + lane;
+    [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+        uint y_px = tile_y * kTileSize + r;
+        vec3 p = sample_point(pixel_hash(x_px, y_px, params.seed), x_px, y_px, stratum, params.spp);
+        point[r] = vec3(p.x - 0.5 * float(grid.width), p.y - 0.5 * float(grid.height), p.z);
+        bool visible = inside && x_px < grid.width && y_px < grid.height;
+        best[r] = Best(visible ? params.depth_far : -3.4e38, kNone);
+    }
+
+    uint cell = kStraddle ? cell_of(float(stratum) / float(params.spp), grid.cell_count) : stratum / (params.spp / grid.cell_count);
+    uint last_cell = kStraddle ? cell_of(float(stratum + 1u) / float(params.spp), grid.cell_count) : cell;
+    do {
+        uint segment = cell / (grid.cell_count / grid.segment_count);
+        uint key_first = segment * grid.vertex_stride;
+        Best current[8];
+        vec3 at[8];
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+            // A sample of another cell gets a depth that nothing is nearer than.
+            bool here = !kStraddle || cell_of(point[r].z, grid.cell_count) == cell;
+            current[r] = here ? best[r] : Best(-3.4e38, 0u);
+            at[r] = vec3(point[r].xy, point[r].z * float(grid.segment_count) - float(segment));
+            if (kContinue) {
+                uint entry = hits[slot + r * 8u];
+                bool again = here && inside && entry != kNone;
+                MovingTriangle m = fetch_moving_triangle(again ? entry : grid.triangle_count, key_first, grid.vertex_stride);
+                test(m, entry, at[r], current[r]);
+            }
+        }
+        uint list = tile * grid.cell_count + cell;
+        uint begin = texelFetch(bin_offsets, int(list)).x;
+        uint end = texelFetch(bin_offsets, int(list + 1u)).x;
+        uint k = begin + params.list_first;
+        end = min(end, k + kListChunk);
+        do {
+            // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
+            uint entry = k < end ? texelFetch(bin_entries, int(k)).x : grid.triangle_count;
+            MovingTriangle m = fetch_moving_triangle(entry, key_first, grid.vertex_stride);
+            [[unroll]] for (uint r = 0u; r < 8u; ++r) test(m, entry, at[r], current[r]);
+            ++k;
+        } while (k < end);
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+            bool here = !kStraddle || cell_of(point[r].z, grid.cell_count) == cell;
+            if (here) best[r] = current[r];
+        }
+        ++cell;
+    } while (cell <= last_cell);
+
+    if (inside) {
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) hits[slot + r * 8u] = best[r].entry;
+    }
+}

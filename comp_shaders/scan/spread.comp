@@ -1,0 +1,32 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: second half of an exclusive prefix sum, in place: each run from the sum of all runs before it. The total goes behind the last element.
+// Reads:   values, sums (scanned)
+// Writes:  Values (count + 1)
+// Grid:    one invocation per run
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform usamplerBuffer values;
+layout(binding = 1) uniform usamplerBuffer sums;
+layout(binding = 2, scalar) writeonly buffer Values { uint result[]; };
+layout(push_constant, scalar) uniform Push { ScanParams params; };
+
+void main() {
+    uint run = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint first = run * kScanRun;
+    uint end = min(first + kScanRun, params.count);
+    uint sum = texelFetch(sums, int(run)).x;
+    uint i = first;
+    while (i < end) {
+        uvec4 v = texelFetch(values, int(i / 4u));
+        uvec4 before = uvec4(sum, sum + v.x, sum + v.x + v.y, sum + v.x + v.y + v.z);
+        [[unroll]] for (uint j = 0u; j < 4u; ++j) {
+            if (i + j < end) result[i + j] = before[j];
+        }
+        sum = before.w + v.w;
+        i += 4u;
+    }
+    if (first < params.count && end == params.count) result[params.count] = sum;
+}

@@ -1,0 +1,55 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: for each prism in one cell of time: the tiles that it may touch and the orientations in which it may be seen.
+// Reads:   triangles, raster_vertices
+// Writes:  Rects of the cell (shared/rect.h), BlockCount (workgroups that bin/large will need)
+// Grid:    one invocation per triangle
+// Source:  bounds of a linear motion are those of its ends, since x / w is monotone in time for w > 0
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "shared/rect.h"
+#include "math/orientation.h"
+
+layout(local_size_x = 64) in;
+layout(binding = 0) uniform usamplerBuffer triangles;
+layout(binding = 1) uniform samplerBuffer raster_vertices;
+layout(binding = 2, scalar) writeonly buffer Rects { uvec2 rects[]; };
+layout(binding = 3, scalar) buffer BlockCount { uint block_count; };
+layout(push_constant, scalar) uniform Push { PrismParams params; };
+#include "common/triangle.glsl"
+#include "common/cell.glsl"
+
+void main() {
+    uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (triangle >= params.grid.triangle_count) return;
+    ViewGrid grid = params.grid;
+    uint segment = segment_of_cell(grid, params.cell);
+    CellTriangle c = fetch_cell_triangle(grid, triangle, segment * grid.vertex_stride, cell_span(grid, params.cell));
+
+    float lowest_w = min(min_of(c.a0.w, c.a1.w, c.a2.w), min_of(c.b0.w, c.b1.w, c.b2.w));
+    float highest_w = max(max_of(c.a0.w, c.a1.w, c.a2.w), max_of(c.b0.w, c.b1.w, c.b2.w));
+    bool in_front = lowest_w > 0.0;
+    vec2 pa0 = c.a0.xy / c.a0.w, pa1 = c.a1.xy / c.a1.w, pa2 = c.a2.xy / c.a2.w;
+    vec2 pb0 = c.b0.xy / c.b0.w, pb1 = c.b1.xy / c.b1.w, pb2 = c.b2.xy / c.b2.w;
+    vec2 lower = min(min(min(pa0, pa1), pa2), min(min(pb0, pb1), pb2));
+    vec2 upper = max(max(max(pa0, pa1), pa2), max(max(pb0, pb1), pb2));
+    vec2 centre = in_front ? pa0 : vec2(0.0);
+
+    float extent = grid_extent(grid);
+    uint seen = orientations(tile_relative(c.a0, centre.x, centre.y), tile_relative(c.a1, centre.x, centre.y), tile_relative(c.a2, centre.x, centre.y),
+                             tile_relative(c.b0, centre.x, centre.y), tile_relative(c.b1, centre.x, centre.y), tile_relative(c.b2, centre.x, centre.y), extent);
+
+    // Rounding of the vertices and of the samples, as in math/range.h; time is widened where ranges are compared, here it moves the bounds.
+    vec2 slack = kShiftRounding * (extent + max(abs(lower), abs(upper))) + time_slack(grid.cell_count) * (upper - lower);
+    vec2 half_size = 0.5 * vec2(float(grid.width), float(grid.height));
+    vec2 tiles = vec2(float(grid.tiles_x), float(grid.tiles_y));
+    vec2 first = in_front ? floor((lower - slack + half_size) * (1.0 / float(kTileSize))) : vec2(0.0);
+    vec2 last = in_front ? floor((upper + slack + half_size) * (1.0 / float(kTileSize))) : tiles;
+    bool visible = seen != 0u && highest_w > 0.0 && first.x < tiles.x && first.y < tiles.y && last.x >= 0.0 && last.y >= 0.0;
+    uvec2 f = uvec2(clamp(first, vec2(0.0), tiles - 1.0));
+    uvec2 l = uvec2(clamp(last, vec2(0.0), tiles - 1.0));
+
+    rects[triangle] = pack_rect(f, l, visible ? seen : 0u, in_front);
+    uint blocks = visible && rect_is_large(f, l, in_front) ? rect_blocks(f, l) : 0u;
+    if (blocks > 0u) atomicAdd(block_count, blocks);
+}

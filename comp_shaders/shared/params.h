@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every push constant of every stage, scalar layout, shared by host and shader.
+#ifndef GNOMON_SHARED_PARAMS_H
+#define GNOMON_SHARED_PARAMS_H
+#include "lang.h"
+GN_BEGIN
+
+// Texels (pixels) along a tile's side; the lanes of a tile's row and the rows that one invocation holds in registers.
+const uint kTileSize = 8u;
+const uint kTileTexels = 64u;
+// Items (a tile in a cell of time) whose ranges are counted together; bands of the S-buffer consist of whole blocks.
+const uint kCountBlock = 128u;
+// No triangle.
+const uint kNone = 0xffffffffu;
+// Set in a list's entry: the triangle with its orientation reversed (vertices 1 and 2 swapped).
+const uint kReversed = 0x80000000u;
+// Prisms whose bounds in a cell hold at most this many tiles are binned without a closer look.
+const uint kSmallTiles = 4u;
+// Tiles that one workgroup of the binning of large prisms looks at.
+const uint kBlockTiles = 64u;
+// Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, without a word.
+const uint kListChunk = 12288u;
+// Elements that one invocation scans.
+const uint kScanRun = 64u;
+
+// A view's image and how its prisms are listed.
+struct ViewGrid {
+    uint width;          // Texels.
+    uint height;
+    uint tiles_x;
+    uint tiles_y;
+    uint cell_count;     // Equal parts of the shutter; a multiple of segment_count.
+    uint segment_count;
+    uint triangle_count;
+    uint vertex_stride;  // Vertices from one key to the next.
+};
+
+struct PoseParams {
+    uint vertex_count;
+};
+
+struct ProjectParams {
+    vec4 row_x;  // raster = rows * (position - origin, 1)
+    vec4 row_y;
+    vec4 row_z;
+    vec4 row_w;
+    vec3 origin;
+    uint vertex_count;
+    uint vertex_first;  // Of the key, in the positions.
+};
+
+struct PrismParams {
+    ViewGrid grid;
+    uint cell;
+};
+
+struct BinParams {
+    ViewGrid grid;
+    uint cell;         // bin/small, bin/blocks.
+    uint rect_stride;  // bin/large: rects from one cell to the next.
+    uint block_count;  // bin/large: workgroups that have work.
+};
+
+struct ScanParams {
+    uint count;
+};
+
+struct RasterParams {
+    ViewGrid grid;
+    uint item_count;   // Items (a tile in a cell: tile * cell_count + cell) of this dispatch.
+    uint item_first;
+    uint list_first;   // Walk entries [list_first, list_first + kListChunk) of each list.
+    uint range_first;  // The number of the first range in the bound memory.
+};
+
+struct TraceParams {
+    ViewGrid grid;
+    uint tile_first;   // The batch: tiles [tile_first, tile_first + tile_count), strata [stratum_first, ...).
+    uint tile_count;
+    uint stratum_first;
+    uint stratum_count;
+    uint spp;
+    uint seed;
+    uint list_first;
+    float depth_near;  // A hit's depth is > depth_near and < depth_far.
+    float depth_far;
+};
+
+struct CompactParams {
+    uint run_count;  // Runs of kScanRun samples.
+};
+
+struct ShadowParams {
+    ViewGrid camera;
+    uint hit_count;
+    uint tile_first;
+    uint stratum_first;
+    uint stratum_count;
+    uint spp;
+    uint seed;
+    uint light;
+    uint light_width;
+    uint light_height;
+    uint light_tiles_x;
+    uint light_cell_count;
+    float scale_x;    // Raster units per metre (orthographic), or per unit slope (perspective).
+    float scale_y;
+    float cone_tan2;  // Squared tangent of a spot's outer half angle.
+    float tolerance;  // Metres along the hit's normal within which nothing occludes.
+    float depth_near; // Occluders are deeper than this.
+    uint item_first;  // Items of the light's view whose ranges are in memory.
+    uint item_count;
+    uint range_first; // The number of the first range in memory.
+    uint part;        // How many times kListChunk ranges of each list were walked before.
+};
+
+struct ShadeParams {
+    ViewGrid grid;
+    uint tile_first;
+    uint tile_count;
+    uint stratum_first;
+    uint stratum_count;
+    uint spp;
+    uint seed;
+    uint light_count;
+    uint key_count;
+};
+
+GN_END
+#endif

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The tiles that a prism may touch in one cell of time, in two words: x: first x (12 bits), last x (12), orientations (2), in front of the eye (1); y: first y, last y.
+#ifndef GNOMON_SHARED_RECT_H
+#define GNOMON_SHARED_RECT_H
+#include "params.h"
+GN_BEGIN
+
+struct Rect {
+    uvec2 first;
+    uvec2 last;
+    uint seen;      // kSeenPositive, kSeenNegative; 0: not visible.
+    bool in_front;  // All of it has w > 0, so the bounds are tight.
+};
+
+GN_FN uvec2 pack_rect(uvec2 first, uvec2 last, uint seen, bool in_front) {
+    return uvec2(first.x | (last.x << 12u) | (seen << 24u) | (in_front ? 1u << 26u : 0u), first.y | (last.y << 12u));
+}
+
+GN_FN Rect unpack_rect(uvec2 r) {
+    Rect rect;
+    rect.first = uvec2(r.x & 4095u, r.y & 4095u);
+    rect.last = uvec2((r.x >> 12u) & 4095u, (r.y >> 12u) & 4095u);
+    rect.seen = (r.x >> 24u) & 3u;
+    rect.in_front = ((r.x >> 26u) & 1u) != 0u;
+    return rect;
+}
+
+GN_FN uint rect_tiles(uvec2 first, uvec2 last) { return (last.x - first.x + 1u) * (last.y - first.y + 1u); }
+
+// Large prisms are tested against each tile (bin/large), small ones are not (bin/small).
+GN_FN bool rect_is_large(uvec2 first, uvec2 last, bool in_front) { return !in_front || rect_tiles(first, last) > kSmallTiles; }
+
+// Workgroups that bin/large spends on the prism.
+GN_FN uint rect_blocks(uvec2 first, uvec2 last) { return (rect_tiles(first, last) + kBlockTiles - 1u) / kBlockTiles; }
+
+GN_END
+#endif

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Device memory: allocation within a budget, texel views, copies from and to the host.
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+
+#include "gpu/vulkan.hpp"
+
+namespace gnomon::gpu {
+namespace {
+
+constexpr uint64_t kGranularity = 16;  // bytes of the largest texel
+
+constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                                      VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
+
+constexpr VkMemoryPropertyFlags kHostReadable =
+    VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+
+std::optional<uint32_t> find_memory_type(const VkPhysicalDeviceMemoryProperties& properties, uint32_t type_bits,
+                                         VkMemoryPropertyFlags wanted) {
+    for (uint32_t i = 0; i < properties.memoryTypeCount; ++i) {
+        const bool allowed = (type_bits >> i) & 1u;
+        if (allowed && (properties.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
+    }
+    return std::nullopt;
+}
+
+Error memory_error(const Device::Impl& device, const std::string& name, uint64_t bytes, const std::string& why) {
+    return Error(ErrorKind::out_of_memory, "no memory for buffer '" + name + "' of " + format_bytes(bytes) + ": " + why,
+                 format_bytes(device.live_bytes) + " in use" + device.describe_live(),
+                 "change --memory-budget or lower --shadow-res");
+}
+
+const std::shared_ptr<Buffer::Impl>& checked(Device& device, const Buffer& buffer, uint64_t offset, uint64_t bytes,
+                                             const char* what) {
+    const std::shared_ptr<Buffer::Impl>& impl = buffer.impl();
+    const std::string hint = "fix the code that calls it";
+    if (!impl) throw Error(ErrorKind::internal, std::string(what) + " of an empty buffer", "", hint);
+    if (impl->device != device.impl()) {
+        throw Error(ErrorKind::internal, std::string(what) + " on another device", "buffer " + impl->name, hint);
+    }
+    if (offset > impl->bytes || bytes > impl->bytes - offset) {
+        throw Error(ErrorKind::internal,
+                    std::string(what) + " of " + std::to_string(bytes) + " bytes at " + std::to_string(offset) +
+                        " passes the end at " + std::to_string(impl->bytes),
+                    "buffer " + impl->name, hint);
+    }
+    return impl;
+}
+
+}  // namespace
+
+std::string format_bytes(uint64_t bytes) {
+    constexpr std::array<const char*, 4> kUnits = {"B", "KiB", "MiB", "GiB"};
+    double value = static_cast<double>(bytes);
+    size_t unit = 0;
+    for (; value >= 1024.0 && unit + 1 < kUnits.size(); ++unit) value /= 1024.0;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), unit == 0 ? "%.0f %s" : "%.1f %s", value, kUnits[unit]);
+    return text.data();
+}
+
+std::string Device::Impl::describe_live() const {
+    constexpr size_t kShown = 5;
+    std::vector<std::pair<uint64_t, std::string>> sizes;
+    for (const auto& [name, bytes] : live_by_name) sizes.emplace_back(bytes, name);
+    std::sort(sizes.rbegin(), sizes.rend());
+    std::string text;
+    for (size_t i = 0; i < std::min(kShown, sizes.size()); ++i) {
+        text += (i == 0 ? ": " : ", ") + sizes[i].second + " " + format_bytes(sizes[i].first);
+    }
+    if (sizes.size() > kShown) text += " and " + std::to_string(sizes.size() - kShown) + " more";
+    return text;
+}
+
+Memory Device::Impl::make_memory(const std::string& name, uint64_t bytes, VkBufferUsageFlags usage,
+                                 std::span<const VkMemoryPropertyFlags> preferences) {
+    const VkBufferCreateInfo buffer_info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
+    Memory made;
+    made.buffer = create<OwnedBuffer>(device.get(), vkCreateBuffer, buffer_info, "a buffer", name);
+    VkMemoryRequirements requirements{};
+    vkGetBufferMemoryRequirements(device.get(), made.buffer.get(), &requirements);
+    std::optional<uint32_t> type;
+    for (size_t i = 0; i < preferences.size() && !type; ++i) {
+        type = find_memory_type(memory_properties, requirements.memoryTypeBits, preferences[i]);
+    }
+    if (!type)
+        throw Error(ErrorKind::no_device, "the device has no memory type for buffers", "buffer " + name, "update the driver");
+    const VkMemoryAllocateInfo memory_info{
+        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = requirements.size, .memoryTypeIndex = *type};
+    VkDeviceMemory memory = VK_NULL_HANDLE;
+    const VkResult result = vkAllocateMemory(device.get(), &memory_info, nullptr, &memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
+        throw memory_error(*this, name, bytes, "the driver has no more");
+    }
+    check(result, "allocate memory", "buffer " + name);
+    made.memory = OwnedMemory(device.get(), memory);
+    check(vkBindBufferMemory(device.get(), made.buffer.get(), memory, 0), "bind memory", "buffer " + name);
+    set_object_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(made.buffer.get()), name);
+    return made;
+}
+
+const Memory& Device::Impl::staging() {
+    if (staging_memory.mapped) return staging_memory;
+    constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    const std::array preferences{kHostReadable, kCoherent};
+    staging_memory =
+        make_memory("staging", kStagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, preferences);
+    map(staging_memory);
+    return staging_memory;
+}
+
+void Device::Impl::map(Memory& made) {
+    void* mapped = nullptr;
+    check(vkMapMemory(device.get(), made.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped), "map memory");
+    made.mapped = static_cast<std::byte*>(mapped);
+}
+
+Buffer::Buffer() = default;
+Buffer::~Buffer() = default;
+Buffer::Buffer(Buffer&&) noexcept = default;
+Buffer& Buffer::operator=(Buffer&&) noexcept = default;
+uint64_t Buffer::bytes() const { return impl_ ? impl_->bytes : 0; }
+Buffer::operator bool() const { return impl_ != nullptr; }
+
+Buffer::Impl::~Impl() {
+    if (bytes > 0) device->remove_live(name, bytes);
+}
+
+VkBufferView Buffer::Impl::view(VkFormat format, uint64_t offset, uint64_t range) {
+    OwnedBufferView& cached = views[{format, offset, range}];
+    if (!cached.get()) {
+        const VkBufferViewCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO,
+                                          .buffer = memory.buffer.get(),
+                                          .format = format,
+                                          .offset = offset,
+                                          .range = range};
+        cached = create<OwnedBufferView>(device->device.get(), vkCreateBufferView, info, "a texel view", "buffer " + name);
+    }
+    return cached.get();
+}
+
+Buffer Device::allocate(const std::string& name, uint64_t bytes) {
+    bytes = bytes == 0 ? kGranularity : bytes;
+    if (bytes > impl_->limits.max_buffer_bytes - kGranularity) {
+        throw memory_error(*impl_, name, bytes,
+                           "a buffer of this device has at most " + format_bytes(impl_->limits.max_buffer_bytes));
+    }
+    if (impl_->budget > 0 && (impl_->live_bytes > impl_->budget || bytes > impl_->budget - impl_->live_bytes)) {
+        throw memory_error(*impl_, name, bytes, "it would pass the budget of " + format_bytes(impl_->budget));
+    }
+    Buffer buffer;
+    buffer.impl_ = std::make_shared<Buffer::Impl>();
+    buffer.impl_->device = impl_;
+    buffer.impl_->name = name;
+    buffer.impl_->capacity = (bytes + kGranularity - 1) / kGranularity * kGranularity;
+    constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    const std::array preferences{impl_->map_buffers ? kLocal | kHostReadable : kLocal};
+    buffer.impl_->memory = impl_->make_memory(name, buffer.impl_->capacity, kUsage, preferences);
+    if (impl_->map_buffers) impl_->map(buffer.impl_->memory);
+    buffer.impl_->bytes = bytes;
+    impl_->add_live(name, bytes);
+    return buffer;
+}
+
+void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset) {
+    const Memory& memory = checked(device, buffer, offset, data.size(), "upload")->memory;
+    if (data.empty()) return;
+    if (memory.mapped) {
+        std::memcpy(memory.mapped + offset, data.data(), data.size());
+        return;
+    }
+    const Memory& staging = device.impl()->staging();
+    for (uint64_t at = 0; at < data.size(); at += kStagingBytes) {
+        const uint64_t bytes = std::min<uint64_t>(kStagingBytes, data.size() - at);
+        std::memcpy(staging.mapped, data.data() + at, bytes);
+        const VkBufferCopy region{.srcOffset = 0, .dstOffset = offset + at, .size = bytes};
+        device.impl()->run_once([&](VkCommandBuffer commands) {
+            vkCmdCopyBuffer(commands, staging.buffer.get(), memory.buffer.get(), 1, &region);
+        });
+    }
+}
+
+void download(Device& device, const Buffer& buffer, std::span<std::byte> data, uint64_t offset) {
+    const Memory& memory = checked(device, buffer, offset, data.size(), "download")->memory;
+    if (data.empty()) return;
+    if (memory.mapped) {
+        std::memcpy(data.data(), memory.mapped + offset, data.size());
+        return;
+    }
+    const Memory& staging = device.impl()->staging();
+    for (uint64_t at = 0; at < data.size(); at += kStagingBytes) {
+        const uint64_t bytes = std::min<uint64_t>(kStagingBytes, data.size() - at);
+        const VkBufferCopy region{.srcOffset = offset + at, .dstOffset = 0, .size = bytes};
+        device.impl()->run_once([&](VkCommandBuffer commands) {
+            vkCmdCopyBuffer(commands, memory.buffer.get(), staging.buffer.get(), 1, &region);
+        });
+        std::memcpy(data.data() + at, staging.mapped, bytes);
+    }
+}
+
+}  // namespace gnomon::gpu

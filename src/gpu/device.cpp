@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// The logical device: its queue, its limits, running command buffers, statistics.
+#include <algorithm>
+#include <limits>
+
+#include "gpu/vulkan.hpp"
+
+namespace gnomon::gpu {
+namespace {
+
+VkDevice create_device(const Candidate& candidate) {
+    VkPhysicalDeviceVulkan13Features features13{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, .synchronization2 = VK_TRUE, .maintenance4 = VK_TRUE};
+    const VkPhysicalDeviceVulkan12Features features12{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &features13, .scalarBlockLayout = VK_TRUE};
+    const float priority = 1.0f;
+    const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                        .queueFamilyIndex = candidate.queue_family,
+                                        .queueCount = 1,
+                                        .pQueuePriorities = &priority};
+    const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                  .pNext = &features12,
+                                  .queueCreateInfoCount = 1,
+                                  .pQueueCreateInfos = &queue};
+    VkDevice device = VK_NULL_HANDLE;
+    check(vkCreateDevice(candidate.physical, &info, nullptr, &device), "open the device", candidate.description.name);
+    return device;
+}
+
+struct Result {
+    ErrorKind kind;
+    const char* meaning;
+    const char* hint;
+};
+
+Result explain(VkResult result) {
+    switch (result) {
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return {ErrorKind::out_of_memory, "out of host memory", "lower --shadow-res or --size"};
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return {ErrorKind::out_of_memory, "out of device memory", "set a lower --memory-budget or lower --shadow-res"};
+        case VK_ERROR_DEVICE_LOST:
+            return {ErrorKind::device_lost, "the device was lost",
+                    "the driver crashed or stopped work that took too long; try another --device or a newer driver"};
+        default:
+            return {ErrorKind::internal, "Vulkan call failed", "run with validation to see why"};
+    }
+}
+
+// Stages and accesses of all that gnomon runs on the device.
+constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
+
+void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 to_stages, VkAccessFlags2 to_accesses) {
+    const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = kStages,
+                                   .srcAccessMask = kWrites,
+                                   .dstStageMask = to_stages,
+                                   .dstAccessMask = to_accesses};
+    const VkDependencyInfo info{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &barrier};
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
+}  // namespace
+
+void check(VkResult result, const std::string& what, const std::string& where) {
+    if (result >= VK_SUCCESS) return;
+    const Result explained = explain(result);
+    throw Error(explained.kind,
+                "cannot " + what + ": " + explained.meaning + " (VkResult " + std::to_string(static_cast<int>(result)) + ")",
+                where, explained.hint);
+}
+
+void record_barrier(VkCommandBuffer commands) { record_memory_barrier(commands, kStages, kReads | kWrites); }
+
+void record_host_barrier(VkCommandBuffer commands) {
+    record_memory_barrier(commands, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+}
+
+Device::Impl::Impl(const std::string& choice, bool validate)
+    : instance(validate), candidate(choose_candidate(instance, choice)), device(create_device(candidate)) {
+    vkGetDeviceQueue(device.get(), candidate.queue_family, 0, &queue);
+    vkGetPhysicalDeviceMemoryProperties(candidate.physical, &memory_properties);
+
+    VkPhysicalDeviceMaintenance4Properties maintenance4{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
+    VkPhysicalDeviceMaintenance3Properties maintenance3{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
+                                                        .pNext = &maintenance4};
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
+                                                .pNext = &maintenance3};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
+    vkGetPhysicalDeviceProperties2(candidate.physical, &properties);
+    vulkan_limits = properties.properties.limits;
+    limits = {.heap_bytes = candidate.description.heap_bytes,
+              .max_buffer_bytes = std::min(maintenance3.maxMemoryAllocationSize, maintenance4.maxBufferSize),
+              .max_storage_range = vulkan_limits.maxStorageBufferRange,
+              .storage_alignment = vulkan_limits.minStorageBufferOffsetAlignment,
+              .max_texels = vulkan_limits.maxTexelBufferElements,
+              .texel_alignment = vulkan_limits.minTexelBufferOffsetAlignment,
+              .max_groups = std::min(vulkan_limits.maxComputeWorkGroupCount[0], vulkan_limits.maxComputeWorkGroupCount[1]),
+              .subgroup_size = subgroup.subgroupSize,
+              .is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
+
+    // Cached, because the host reads results: uncached device memory behind a bus is read far slower than it is copied. And in
+    // the largest heap, because some devices show the host a small window only.
+    constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                                VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    for (uint32_t i = 0; i < memory_properties.memoryTypeCount; ++i) {
+        const VkMemoryType& type = memory_properties.memoryTypes[i];
+        const bool large = memory_properties.memoryHeaps[type.heapIndex].size == limits.heap_bytes;
+        if (large && (type.propertyFlags & kMappable) == kMappable) map_buffers = true;
+    }
+
+    const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    fence = create<OwnedFence>(device.get(), vkCreateFence, fence_info, "a fence");
+    const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                            .queueFamilyIndex = candidate.queue_family};
+    once_pool = create<OwnedCommandPool>(device.get(), vkCreateCommandPool, pool_info, "a command pool");
+}
+
+void Device::Impl::run_once(const std::function<void(VkCommandBuffer)>& record) {
+    check(vkResetCommandPool(device.get(), once_pool.get(), VK_COMMAND_POOL_RESET_RELEASE_RESOURCES_BIT),
+          "reset a command pool");
+    const VkCommandBufferAllocateInfo allocate_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                                    .commandPool = once_pool.get(),
+                                                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                                    .commandBufferCount = 1};
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    check(vkAllocateCommandBuffers(device.get(), &allocate_info, &commands), "allocate a command buffer");
+    const VkCommandBufferBeginInfo begin_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
+                                              .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
+    check(vkBeginCommandBuffer(commands, &begin_info), "begin a command buffer");
+    record_barrier(commands);
+    record(commands);
+    record_host_barrier(commands);
+    check(vkEndCommandBuffer(commands), "end a command buffer");
+    submit_and_wait(commands);
+    vkFreeCommandBuffers(device.get(), once_pool.get(), 1, &commands);
+}
+
+void Device::Impl::submit_and_wait(VkCommandBuffer commands) {
+    throw_new_messages();  // what was recorded wrongly must not run
+    const VkCommandBufferSubmitInfo buffer_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
+                                                .commandBuffer = commands};
+    const VkSubmitInfo2 info{
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer_info};
+    check(vkQueueSubmit2(queue, 1, &info, fence.get()), "submit work");
+    const VkFence wait_for = fence.get();
+    check(vkWaitForFences(device.get(), 1, &wait_for, VK_TRUE, std::numeric_limits<uint64_t>::max()),
+          "wait for submitted work");
+    check(vkResetFences(device.get(), 1, &wait_for), "reset a fence");
+    throw_new_messages();
+}
+
+void Device::Impl::throw_new_messages() {
+    if (messages_thrown == instance.messages.size()) return;
+    std::string text;
+    for (; messages_thrown < instance.messages.size(); ++messages_thrown) text += " | " + instance.messages[messages_thrown];
+    throw Error(ErrorKind::internal, "the Vulkan validation layer reports:" + text, "", "report this as a bug of gnomon");
+}
+
+void Device::Impl::set_object_name(VkObjectType type, uint64_t handle, const std::string& name) {
+    if (!instance.set_name) return;
+    const VkDebugUtilsObjectNameInfoEXT info{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT,
+                                             .objectType = type,
+                                             .objectHandle = handle,
+                                             .pObjectName = name.c_str()};
+    check(instance.set_name(device.get(), &info), "name an object", name);
+}
+
+void Device::Impl::add_live(const std::string& name, uint64_t bytes) {
+    live_bytes += bytes;
+    live_by_name[name] += bytes;
+    peak_bytes = std::max(peak_bytes, live_bytes);
+    uint64_t& largest = largest_by_name[name];
+    largest = std::max(largest, bytes);
+}
+
+void Device::Impl::remove_live(const std::string& name, uint64_t bytes) {
+    live_bytes -= bytes;
+    const auto found = live_by_name.find(name);
+    found->second -= bytes;
+    if (found->second == 0) live_by_name.erase(found);
+}
+
+void Device::Impl::add_stage_time(const std::string& stage, double seconds) {
+    auto found =
+        std::find_if(stage_times.begin(), stage_times.end(), [&](const StageTime& time) { return time.name == stage; });
+    if (found == stage_times.end()) found = stage_times.insert(found, {.name = stage});
+    found->seconds += seconds;
+    found->dispatches += 1;
+}
+
+Device::Device(const std::string& choice, bool validate) : impl_(std::make_shared<Impl>(choice, validate)) {}
+Device::~Device() = default;
+
+const DeviceDescription& Device::description() const { return impl_->candidate.description; }
+const Limits& Device::limits() const { return impl_->limits; }
+const std::vector<std::string>& Device::validation_messages() const { return impl_->instance.messages; }
+
+void Device::set_budget(uint64_t bytes) { impl_->budget = bytes; }
+uint64_t Device::live_bytes() const { return impl_->live_bytes; }
+uint64_t Device::peak_bytes() const { return impl_->peak_bytes; }
+std::map<std::string, uint64_t> Device::largest_bytes() const { return impl_->largest_by_name; }
+
+std::vector<StageTime> Device::stage_times() const { return impl_->stage_times; }
+
+void Device::reset_statistics() {
+    impl_->stage_times.clear();
+    impl_->peak_bytes = impl_->live_bytes;
+    impl_->largest_by_name.clear();
+}
+
+}  // namespace gnomon::gpu

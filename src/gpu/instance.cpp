@@ -1,0 +1,296 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Vulkan instance, the validation layer's messages, and which device is used.
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <iterator>
+
+#include "gpu/vulkan.hpp"
+
+namespace gnomon::gpu {
+namespace {
+
+constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                               const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
+    static_cast<std::vector<std::string>*>(messages)->emplace_back(data->pMessage);
+    return VK_FALSE;
+}
+
+bool has_validation_layer() {
+    uint32_t count = 0;
+    vkEnumerateInstanceLayerProperties(&count, nullptr);
+    std::vector<VkLayerProperties> layers(count);
+    vkEnumerateInstanceLayerProperties(&count, layers.data());
+    return std::any_of(layers.begin(), layers.end(),
+                       [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; });
+}
+
+bool has_debug_utils() {
+    uint32_t count = 0;
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> extensions(count);
+    vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
+    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
+        return std::strcmp(extension.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
+    });
+}
+
+template <class Function>
+Function load(VkInstance instance, const char* name) {
+    return reinterpret_cast<Function>(vkGetInstanceProcAddr(instance, name));
+}
+
+std::string type_name(VkPhysicalDeviceType type) {
+    switch (type) {
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return "discrete";
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return "integrated";
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return "virtual";
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return "cpu";
+        default:
+            return "other";
+    }
+}
+
+// The lower, the sooner an empty choice takes it.
+int type_rank(const std::string& type) {
+    if (type == "discrete") return 0;
+    return type == "integrated" || type == "virtual" ? 1 : 2;
+}
+
+std::string version_text(uint32_t version) {
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
+}
+
+// The first queue family with compute, if possible one with timestamps.
+void find_queue(Candidate& candidate) {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(candidate.physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(candidate.physical, &count, families.data());
+    bool has_compute = false;
+    for (uint32_t i = 0; i < count && candidate.timestamp_bits == 0; ++i) {
+        if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) continue;
+        has_compute = true;
+        candidate.queue_family = i;
+        candidate.timestamp_bits = families[i].timestampValidBits;
+    }
+    if (!has_compute) {
+        candidate.description.missing.emplace_back("a compute queue");
+    } else if (candidate.timestamp_bits == 0) {
+        candidate.description.missing.emplace_back("timestamps on the compute queue");
+    }
+}
+
+void find_missing_features(Candidate& candidate) {
+    VkPhysicalDeviceVulkan13Features features13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features features12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                                .pNext = &features13};
+    VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
+    vkGetPhysicalDeviceFeatures2(candidate.physical, &features);
+    std::vector<std::string>& missing = candidate.description.missing;
+    if (!features12.scalarBlockLayout) missing.emplace_back("scalarBlockLayout");
+    if (!features13.maintenance4) missing.emplace_back("maintenance4");
+    if (!features13.synchronization2) missing.emplace_back("synchronization2");
+}
+
+void find_missing_subgroup_operations(const VkPhysicalDeviceSubgroupProperties& subgroup, std::vector<std::string>& missing) {
+    if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT)) {
+        missing.emplace_back("subgroup operations in compute shaders");
+        return;
+    }
+    constexpr std::pair<VkSubgroupFeatureFlagBits, const char*> kRequired[] = {
+        {VK_SUBGROUP_FEATURE_BASIC_BIT, "basic"},     {VK_SUBGROUP_FEATURE_VOTE_BIT, "vote"},
+        {VK_SUBGROUP_FEATURE_BALLOT_BIT, "ballot"},   {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, "arithmetic"},
+        {VK_SUBGROUP_FEATURE_SHUFFLE_BIT, "shuffle"},
+    };
+    for (const auto& [bit, name] : kRequired) {
+        if (!(subgroup.supportedOperations & bit)) missing.push_back(std::string("subgroup ") + name);
+    }
+}
+
+uint64_t largest_local_heap(VkPhysicalDevice physical) {
+    VkPhysicalDeviceMemoryProperties memory{};
+    vkGetPhysicalDeviceMemoryProperties(physical, &memory);
+    uint64_t largest = 0;
+    for (uint32_t i = 0; i < memory.memoryHeapCount; ++i) {
+        if (memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) {
+            largest = std::max(largest, uint64_t{memory.memoryHeaps[i].size});
+        }
+    }
+    return largest;
+}
+
+Candidate describe(VkPhysicalDevice physical, uint32_t index) {
+    Candidate candidate{.physical = physical};
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    DeviceDescription& description = candidate.description;
+    description.index = index;
+    description.name = properties.deviceName;
+    description.type = type_name(properties.deviceType);
+    description.heap_bytes = largest_local_heap(physical);
+    find_queue(candidate);
+    if (properties.apiVersion < VK_API_VERSION_1_3) {  // what follows may not be asked of it
+        description.driver = "Vulkan " + version_text(properties.apiVersion);
+        description.missing.push_back("Vulkan 1.3 (it has " + version_text(properties.apiVersion) + ")");
+        return candidate;
+    }
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, .pNext = &subgroup};
+    VkPhysicalDeviceProperties2 properties2{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
+    vkGetPhysicalDeviceProperties2(physical, &properties2);
+    description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    find_missing_features(candidate);
+    find_missing_subgroup_operations(subgroup, description.missing);
+    return candidate;
+}
+
+std::string join(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+    return text;
+}
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+// The index that a choice of digits stands for; candidates.size() if it is not one.
+size_t index_of(const std::string& choice, size_t count) {
+    const bool digits =
+        choice.size() < 10 && std::all_of(choice.begin(), choice.end(), [](unsigned char c) { return std::isdigit(c); });
+    return digits ? std::min<size_t>(std::stoul(choice), count) : count;
+}
+
+}  // namespace
+
+Instance::Instance(bool validate) {
+    if (validate && !has_validation_layer()) {
+        throw Error(ErrorKind::no_device, std::string(kValidationLayer) + " is not installed", "validation",
+                    "install it (Debian package vulkan-validationlayers) or run without validation");
+    }
+    const bool debug_utils = has_debug_utils();
+    std::vector<const char*> layers;
+    std::vector<const char*> extensions;
+    if (debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (validate) {
+        layers.push_back(kValidationLayer);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
+    }
+    const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
+    const VkValidationFeaturesEXT validation{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
+                                             .enabledValidationFeatureCount = 1,
+                                             .pEnabledValidationFeatures = &synchronization};
+    const VkApplicationInfo application{
+        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "gnomon", .apiVersion = VK_API_VERSION_1_3};
+    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pNext = validate ? &validation : nullptr,
+                                    .pApplicationInfo = &application,
+                                    .enabledLayerCount = static_cast<uint32_t>(layers.size()),
+                                    .ppEnabledLayerNames = layers.data(),
+                                    .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+                                    .ppEnabledExtensionNames = extensions.data()};
+    const VkResult result = vkCreateInstance(&info, nullptr, &handle);
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {  // no driver on this machine
+        handle = VK_NULL_HANDLE;
+        return;
+    }
+    check(result, "create a Vulkan instance");
+    if (!debug_utils) return;
+    begin_label = load<PFN_vkCmdBeginDebugUtilsLabelEXT>(handle, "vkCmdBeginDebugUtilsLabelEXT");
+    end_label = load<PFN_vkCmdEndDebugUtilsLabelEXT>(handle, "vkCmdEndDebugUtilsLabelEXT");
+    set_name = load<PFN_vkSetDebugUtilsObjectNameEXT>(handle, "vkSetDebugUtilsObjectNameEXT");
+    if (!validate) return;
+    const VkDebugUtilsMessengerCreateInfoEXT messenger{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT,
+        .pfnUserCallback = collect_message,
+        .pUserData = &messages};
+    const auto create_messenger = load<PFN_vkCreateDebugUtilsMessengerEXT>(handle, "vkCreateDebugUtilsMessengerEXT");
+    check(create_messenger(handle, &messenger, nullptr, &messenger_), "create a debug messenger");
+}
+
+Instance::~Instance() {
+    if (messenger_) {
+        load<PFN_vkDestroyDebugUtilsMessengerEXT>(handle, "vkDestroyDebugUtilsMessengerEXT")(handle, messenger_, nullptr);
+    }
+    if (handle) vkDestroyInstance(handle, nullptr);
+}
+
+std::vector<Candidate> find_candidates(const Instance& instance) {
+    std::vector<Candidate> candidates;
+    if (!instance.handle) return candidates;
+    uint32_t count = 0;
+    const VkResult result = vkEnumeratePhysicalDevices(instance.handle, &count, nullptr);
+    if (result == VK_ERROR_INITIALIZATION_FAILED) return candidates;  // drivers, but none of them works here
+    check(result, "list the Vulkan devices");
+    std::vector<VkPhysicalDevice> devices(count);
+    check(vkEnumeratePhysicalDevices(instance.handle, &count, devices.data()), "list the Vulkan devices");
+    for (uint32_t i = 0; i < count; ++i) candidates.push_back(describe(devices[i], i));
+
+    Candidate* chosen = nullptr;
+    for (Candidate& candidate : candidates) {
+        if (!candidate.description.missing.empty()) continue;
+        if (!chosen || type_rank(candidate.description.type) < type_rank(chosen->description.type)) chosen = &candidate;
+    }
+    if (chosen) chosen->description.chosen = true;
+    return candidates;
+}
+
+Candidate choose_candidate(const Instance& instance, const std::string& choice) {
+    const std::vector<Candidate> candidates = find_candidates(instance);
+    if (candidates.empty()) {
+        throw Error(ErrorKind::no_device, "no Vulkan device", "",
+                    "install a Vulkan driver; Debian package mesa-vulkan-drivers has one that runs on the CPU");
+    }
+    std::vector<std::string> lines;
+    for (const Candidate& candidate : candidates) {
+        const DeviceDescription& description = candidate.description;
+        std::string line = std::to_string(description.index) + " '" + description.name + "'";
+        if (!description.missing.empty()) line += " (lacks " + join(description.missing) + ")";
+        lines.push_back(std::move(line));
+    }
+    if (choice.empty()) {
+        const auto chosen =
+            std::find_if(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.description.chosen; });
+        if (chosen != candidates.end()) return *chosen;
+        throw Error(ErrorKind::no_device, "no Vulkan device has what gnomon needs", join(lines), "update the driver");
+    }
+    const size_t index = index_of(choice, candidates.size());
+    const auto found = index < candidates.size()
+                           ? std::next(candidates.begin(), static_cast<std::ptrdiff_t>(index))
+                           : std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+                                 return lower(c.description.name).find(lower(choice)) != std::string::npos;
+                             });
+    if (found == candidates.end()) {
+        throw Error(ErrorKind::no_device, "no Vulkan device matches '" + choice + "'", "--device", "there are: " + join(lines));
+    }
+    if (!found->description.missing.empty()) {
+        throw Error(ErrorKind::no_device, "device '" + found->description.name + "' lacks " + join(found->description.missing),
+                    "--device", "choose another or update its driver; there are: " + join(lines));
+    }
+    return *found;
+}
+
+std::vector<DeviceDescription> list_devices() {
+    const Instance instance(false);
+    std::vector<DeviceDescription> descriptions;
+    for (Candidate& candidate : find_candidates(instance)) descriptions.push_back(std::move(candidate.description));
+    return descriptions;
+}
+
+}  // namespace gnomon::gpu
+
+namespace gnomon {
+
+std::vector<DeviceDescription> list_devices() { return gpu::list_devices(); }
+
+}  // namespace gnomon

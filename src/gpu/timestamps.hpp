@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inside src/gpu only: times on the device.
+#pragma once
+
+#include "gpu/vulkan.hpp"
+
+namespace gnomon::gpu {
+
+/// Timestamps in pairs, start and end. Grows by pools. Any number of them.
+class Timestamps {
+public:
+    explicit Timestamps(const Device::Impl& device);
+
+    /// The time at which all that was recorded before is done.
+    void record(VkCommandBuffer commands);
+    /// Of each pair, in order. The work must be done.
+    std::vector<double> seconds_between_pairs() const;
+    void reset() { count_ = 0; }
+
+private:
+    static constexpr uint32_t kPoolQueries = 2048;
+
+    VkDevice device_;
+    double seconds_per_tick_;
+    uint64_t mask_;  // of the bits that count
+    std::vector<OwnedQueryPool> pools_;
+    size_t count_ = 0;
+};
+
+}  // namespace gnomon::gpu

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// Inside src/gpu only: Vulkan handles that free themselves, errors from its results, and what the types of gpu.hpp hold.
+#pragma once
+
+#include <vulkan/vulkan.h>
+
+#include <functional>
+#include <gnomon/error.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "gpu/gpu.hpp"
+#include "gpu/reflection.hpp"
+
+namespace gnomon::gpu {
+
+/// A child of a VkDevice, destroyed with this object.
+template <class T, void(VKAPI_PTR* kDestroy)(VkDevice, T, const VkAllocationCallbacks*)>
+class Owned {
+public:
+    Owned() = default;
+    Owned(VkDevice device, T handle) : device_(device), handle_(handle) {}
+    Owned(Owned&& other) noexcept : device_(other.device_), handle_(std::exchange(other.handle_, T{})) {}
+    Owned& operator=(Owned&& other) noexcept {
+        std::swap(device_, other.device_);
+        std::swap(handle_, other.handle_);
+        return *this;
+    }
+    ~Owned() {
+        if (handle_) kDestroy(device_, handle_, nullptr);
+    }
+    T get() const { return handle_; }
+
+private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    T handle_ = VK_NULL_HANDLE;
+};
+
+using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
+using OwnedMemory = Owned<VkDeviceMemory, vkFreeMemory>;
+using OwnedBufferView = Owned<VkBufferView, vkDestroyBufferView>;
+using OwnedShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
+using OwnedSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
+using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
+using OwnedPipeline = Owned<VkPipeline, vkDestroyPipeline>;
+using OwnedDescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
+using OwnedQueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
+using OwnedCommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
+using OwnedFence = Owned<VkFence, vkDestroyFence>;
+
+/// Throw unless the result is a success. `what` completes "cannot ...". Errors: out_of_memory, device_lost, else internal.
+void check(VkResult result, const std::string& what, const std::string& where = "");
+
+/// vkCreate...(device, &info, nullptr, &handle) as an Owned.
+template <class OwnedT, class Create, class Info>
+OwnedT create(VkDevice device, Create create_function, const Info& info, const std::string& what,
+              const std::string& where = "") {
+    decltype(std::declval<OwnedT>().get()) handle = VK_NULL_HANDLE;
+    check(create_function(device, &info, nullptr, &handle), "create " + what, where);
+    return OwnedT(device, handle);
+}
+
+/// A buffer with memory of its own; `mapped` where the host can see it.
+struct Memory {
+    OwnedMemory memory;  // before the buffer, so that the buffer goes first
+    OwnedBuffer buffer;
+    std::byte* mapped = nullptr;
+};
+
+/// A VkInstance with the validation layer if asked for. No handle where there is no driver.
+struct Instance {
+    explicit Instance(bool validate);
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    VkInstance handle = VK_NULL_HANDLE;
+    std::vector<std::string> messages;                       ///< Of the validation layer.
+    PFN_vkCmdBeginDebugUtilsLabelEXT begin_label = nullptr;  ///< These three only with VK_EXT_debug_utils.
+    PFN_vkCmdEndDebugUtilsLabelEXT end_label = nullptr;
+    PFN_vkSetDebugUtilsObjectNameEXT set_name = nullptr;
+
+private:
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+};
+
+/// A device of this machine, usable or not.
+struct Candidate {
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    DeviceDescription description;
+    uint32_t queue_family = 0;
+    uint32_t timestamp_bits = 0;
+};
+
+std::vector<Candidate> find_candidates(const Instance& instance);
+
+/// Errors: ErrorKind::no_device.
+Candidate choose_candidate(const Instance& instance, const std::string& choice);
+
+struct DestroyDevice {
+    void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
+};
+
+struct Device::Impl {
+    Impl(const std::string& choice, bool validate);
+
+    /// Record one command buffer, run it and wait.
+    void run_once(const std::function<void(VkCommandBuffer)>& record);
+    /// Run an ended command buffer and wait. Errors as Recorder::submit.
+    void submit_and_wait(VkCommandBuffer commands);
+    /// Throw what the validation layer said since the last call.
+    void throw_new_messages();
+    void set_object_name(VkObjectType type, uint64_t handle, const std::string& name);
+
+    /// The first of these sets of memory properties that the device offers gives the memory.
+    Memory make_memory(const std::string& name, uint64_t bytes, VkBufferUsageFlags usage,
+                       std::span<const VkMemoryPropertyFlags> preferences);
+    void map(Memory& made);  ///< Until it is freed.
+    /// kStagingBytes of mapped host memory, made at first use.
+    const Memory& staging();
+
+    void add_live(const std::string& name, uint64_t bytes);
+    void remove_live(const std::string& name, uint64_t bytes);
+    /// ": name bytes, ..." of the largest live buffers.
+    std::string describe_live() const;
+    void add_stage_time(const std::string& stage, double seconds);
+
+    Instance instance;
+    Candidate candidate;
+    std::unique_ptr<VkDevice_T, DestroyDevice> device;  // before all that is made from it
+    Limits limits;
+    VkPhysicalDeviceLimits vulkan_limits{};
+    VkPhysicalDeviceMemoryProperties memory_properties{};
+    bool map_buffers = false;  ///< Device memory is as good to read and write from the host as host memory.
+    VkQueue queue = VK_NULL_HANDLE;
+    OwnedFence fence;
+    OwnedCommandPool once_pool;
+    Memory staging_memory;
+
+    size_t messages_thrown = 0;
+    uint64_t budget = 0;
+    uint64_t live_bytes = 0;
+    uint64_t peak_bytes = 0;
+    std::map<std::string, uint64_t> live_by_name;
+    std::map<std::string, uint64_t> largest_by_name;
+    std::vector<StageTime> stage_times;
+};
+
+struct Buffer::Impl {
+    ~Impl();
+    /// Cached; it lives as long as the buffer.
+    VkBufferView view(VkFormat format, uint64_t offset, uint64_t bytes);
+
+    std::shared_ptr<Device::Impl> device;
+    std::string name;
+    uint64_t bytes = 0;
+    uint64_t capacity = 0;  ///< bytes, rounded up to whole texels of any format.
+    Memory memory;
+    std::map<std::tuple<VkFormat, uint64_t, uint64_t>, OwnedBufferView> views;
+};
+
+struct Program::Impl {
+    std::shared_ptr<Device::Impl> device;
+    std::string name;
+    Reflection reflection;
+    OwnedSetLayout set_layout;
+    OwnedPipelineLayout layout;
+    OwnedPipeline pipeline;
+};
+
+constexpr uint64_t kStagingBytes = uint64_t{32} << 20;
+
+/// All that was written before is seen by all shaders and transfers after.
+void record_barrier(VkCommandBuffer commands);
+/// All that was written before is seen by the host after the fence.
+void record_host_barrier(VkCommandBuffer commands);
+
+/// "1.5 MiB".
+std::string format_bytes(uint64_t bytes);
+
+}  // namespace gnomon::gpu

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// OpenEXR images: any number of float channels and text in the header.
+#include "io/exr.hpp"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputPart.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <algorithm>
+#include <cassert>
+#include <gnomon/error.hpp>
+
+#include "io/atomic_file.hpp"
+
+namespace gnomon::io {
+
+namespace {
+
+// No compression of OpenEXR packs more tightly than this, so a header that promises more pixels than the file could hold is
+// damaged. The tightest is DWA on a constant image: one 16-bit value for 8x8 pixels, then deflate with at most 1032 to 1.
+constexpr uint64_t kMaxCompression = 64 * 1032;
+
+class OutputStream : public Imf::OStream {
+public:
+    OutputStream(AtomicFile& file, const std::string& name) : Imf::OStream(name.c_str()), file_(file) {}
+
+    void write(const char data[], int count) override {
+        file_.write(std::as_bytes(std::span(data, static_cast<size_t>(count))));
+    }
+    uint64_t tellp() override { return file_.position(); }
+    void seekp(uint64_t position) override { file_.seek(position); }
+
+private:
+    AtomicFile& file_;
+};
+
+/// `values` hold a row-major image whose first pixel is (x, y) in the file's coordinates.
+Imf::Slice slice_of(float* values, const Imath::V2i& origin, uint32_t width, uint32_t height) {
+    return Imf::Slice::Make(Imf::FLOAT, values, origin, width, height, sizeof(float), sizeof(float) * width);
+}
+
+[[noreturn]] void throw_cannot_read(const std::filesystem::path& path, const std::string& reason, const std::string& hint) {
+    throw Error(ErrorKind::input, "cannot read the image: " + reason, path.string(), hint);
+}
+
+ExrImage read_part(Imf::MultiPartInputFile& file, const std::filesystem::path& path) {
+    const std::string hint = "convert it to a flat OpenEXR image of one part";
+    if (file.parts() != 1) throw_cannot_read(path, "it has " + std::to_string(file.parts()) + " parts", hint);
+    const Imf::Header& header = file.header(0);
+    if (header.hasType() && Imf::isDeepData(header.type())) throw_cannot_read(path, "its pixels are deep", hint);
+
+    const Imath::Box2i window = header.dataWindow();
+    ExrImage image;
+    image.width = static_cast<uint32_t>(int64_t{window.max.x} - window.min.x + 1);
+    image.height = static_cast<uint32_t>(int64_t{window.max.y} - window.min.y + 1);
+    const uint64_t pixels = uint64_t{image.width} * image.height;
+
+    for (auto channel = header.channels().begin(); channel != header.channels().end(); ++channel) {
+        if (channel.channel().xSampling != 1 || channel.channel().ySampling != 1)
+            throw_cannot_read(path, std::string("its channel ") + channel.name() + " is subsampled", hint);
+        image.channels.push_back({channel.name(), {}});
+    }
+    const uint64_t file_bytes = std::filesystem::file_size(path);
+    if (pixels > file_bytes * kMaxCompression || pixels * image.channels.size() > file_bytes * kMaxCompression)
+        throw_cannot_read(path, "its header promises more pixels than the file can hold", "make it again: it is damaged");
+
+    Imf::FrameBuffer frame_buffer;
+    for (Channel& channel : image.channels) {
+        channel.values.resize(pixels);
+        frame_buffer.insert(channel.name, slice_of(channel.values.data(), window.min, image.width, image.height));
+    }
+    Imf::InputPart part(file, 0);
+    part.setFrameBuffer(frame_buffer);
+    part.readPixels(window.min.y, window.max.y);
+
+    for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
+            image.attributes[attribute.name()] = text->value();
+    return image;
+}
+
+}  // namespace
+
+const Channel* ExrImage::find(const std::string& name) const {
+    const auto found = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
+    return found == channels.end() ? nullptr : &*found;
+}
+
+void write_exr(const std::filesystem::path& path, uint32_t width, uint32_t height, std::span<const Channel> channels,
+               const std::map<std::string, std::string>& attributes) {
+    Imf::Header header(static_cast<int>(width), static_cast<int>(height));
+    header.compression() = Imf::ZIP_COMPRESSION;
+    for (const auto& [name, text] : attributes) header.insert(name, Imf::StringAttribute(text));
+
+    Imf::FrameBuffer frame_buffer;
+    for (const Channel& channel : channels) {
+        assert(channel.values.size() == uint64_t{width} * height);
+        assert(header.channels().findChannel(channel.name) == nullptr);
+        header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
+        // The frame buffer of an output file is only read from; its type has no const.
+        frame_buffer.insert(channel.name, slice_of(const_cast<float*>(channel.values.data()), {0, 0}, width, height));
+    }
+
+    AtomicFile file(path);
+    try {
+        OutputStream stream(file, path.string());
+        Imf::OutputFile output(stream, header);
+        output.setFrameBuffer(frame_buffer);
+        output.writePixels(static_cast<int>(height));
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::internal, std::string("OpenEXR refused the image: ") + error.what(), path.string(),
+                    "please report it");
+    }
+    file.commit();
+}
+
+ExrImage read_exr(const std::filesystem::path& path) {
+    std::error_code status_error;
+    if (!std::filesystem::exists(path, status_error)) throw_cannot_read(path, "there is no such file", "check its name");
+    if (!std::filesystem::is_regular_file(path, status_error))
+        throw_cannot_read(path, "it is not a regular file", "name an OpenEXR file");
+    try {
+        Imf::MultiPartInputFile file(path.c_str());
+        return read_part(file, path);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception& error) {
+        std::string reason = error.what();
+        if (reason.ends_with('.')) reason.pop_back();
+        throw_cannot_read(path, reason, "check that it is a whole OpenEXR file");
+    }
+}
+
+}  // namespace gnomon::io

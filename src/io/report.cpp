@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame was rendered with and what it cost, as JSON and as the text attributes of an EXR header.
+#include "io/report.hpp"
+
+#include <gnomon/version.hpp>
+
+namespace gnomon::io {
+
+Json document(const std::string& kind) {
+    return {{"schema", "gnomon." + kind}, {"schema_version", 1}, {"version", GNOMON_VERSION}};
+}
+
+Json settings_json(const RenderSettings& settings) {
+    return {
+        {"width", settings.width},   {"height", settings.height},
+        {"spp", settings.spp},       {"seed", settings.seed},
+        {"camera", settings.camera}, {"shadow_res", settings.shadow_res},
+        {"method", settings.method}, {"layout", settings.layout},
+        {"raster", settings.raster}, {"memory_budget", settings.memory_budget},
+    };
+}
+
+Json render_json(const FrameStats& stats, const Json& settings, const std::vector<std::string>& outputs,
+                 const std::vector<std::string>& warnings) {
+    Json stages = Json::array();
+    for (const FrameStats::Stage& stage : stats.stages)
+        stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"dispatches", stage.dispatches}});
+
+    Json json = document("render");
+    json["device"] = stats.device;
+    json["settings"] = settings;
+    json["stages"] = stages;
+    json["buffers"] = stats.buffer_bytes;
+    json["peak_bytes"] = stats.peak_bytes;
+    json["counts"] = stats.counts;
+    json["wall_seconds"] = stats.wall_seconds;
+    json["outputs"] = outputs;
+    json["warnings"] = warnings;
+    return json;
+}
+
+std::map<std::string, std::string> exr_attributes(const Json& settings) {
+    std::map<std::string, std::string> attributes;
+    for (const auto& [name, value] : settings.items())
+        attributes["gnomon:" + name] = value.is_string() ? value.get<std::string>() : to_text(value, -1);
+    return attributes;
+}
+
+std::string to_text(const Json& json, int indent) { return json.dump(indent, ' ', false, Json::error_handler_t::replace); }
+
+}  // namespace gnomon::io

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame was rendered with and what it cost, as JSON and as the text attributes of an EXR header.
+#pragma once
+
+#include <gnomon/render.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace gnomon::io {
+
+using Json = nlohmann::ordered_json;
+
+/// The start of every JSON document of gnomon: "schema": "gnomon.<kind>", "schema_version": 1, "version": gnomon's own. Fields
+/// may be added under the same schema version; what a field means changes only with it.
+Json document(const std::string& kind);
+
+/// All of RenderSettings but keep_samples, by member name; the image's size is "width" and "height".
+Json settings_json(const RenderSettings& settings);
+
+/// The document "gnomon.render" of one frame:
+///   device        string
+///   settings      object, as given
+///   stages        [{name, seconds, dispatches}], seconds on the device, in the order in which the stages ran first
+///   buffers       {name: bytes}, the largest size of each
+///   peak_bytes    most device memory at one time
+///   counts        {name: number}: triangles, prisms, ranges, samples, hits, shadow_tests, ...
+///   wall_seconds  on the host, for the frame without reading the scene and writing files
+///   outputs       [path], the image files of the frame
+///   warnings      [string], one line each
+Json render_json(const FrameStats& stats, const Json& settings, const std::vector<std::string>& outputs,
+                 const std::vector<std::string>& warnings);
+
+/// The settings as text attributes: "gnomon:<name>" for each member. Numbers in the fewest digits that give them back.
+std::map<std::string, std::string> exr_attributes(const Json& settings);
+
+/// A JSON document as text; indent -1: on one line. Bytes that are not UTF-8 (they come from file names) become U+FFFD; numbers
+/// that are not finite become null.
+std::string to_text(const Json& json, int indent = 2);
+
+}  // namespace gnomon::io

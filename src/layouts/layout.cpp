@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "layouts/layout.hpp"
+
+#include <gnomon/error.hpp>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "shader_table.h"
+
+namespace gnomon {
+namespace {
+
+struct Format {
+    gpu::Texel texel;
+    uint32_t bytes;
+};
+
+const std::map<std::string, Format> kFormats = {
+    {"r32_float", {gpu::Texel::r32_float, 4}},   {"rg32_float", {gpu::Texel::rg32_float, 8}}, {"rgba32_float", {gpu::Texel::rgba32_float, 16}},
+    {"r32_uint", {gpu::Texel::r32_uint, 4}},     {"rg32_uint", {gpu::Texel::rg32_uint, 8}},   {"rgba32_uint", {gpu::Texel::rgba32_uint, 16}},
+};
+
+const std::map<std::string, LayoutBuffer::Per> kPer = {
+    {"once", LayoutBuffer::Per::once}, {"list", LayoutBuffer::Per::list}, {"range", LayoutBuffer::Per::range}};
+
+template <class Value>
+Value lookup(const std::map<std::string, Value>& table, const std::string& key, const std::string& member, const std::string& where) {
+    auto found = table.find(key);
+    if (found != table.end()) return found->second;
+    std::string known;
+    for (const auto& entry : table) known += (known.empty() ? "" : ", ") + entry.first;
+    throw Error(ErrorKind::input, "'" + member + "' is '" + key + "'", where, "use one of " + known);
+}
+
+LayoutBuffer parse_buffer(const nlohmann::json& json, const std::string& where) {
+    LayoutBuffer buffer;
+    buffer.block = json.at("block").get<std::string>();
+    buffer.texel = json.value("texel", "");
+    Format format = lookup(kFormats, json.value("format", "r32_uint"), "format", where);
+    buffer.format = format.texel;
+    buffer.element_bytes = format.bytes;
+    buffer.per = lookup(kPer, json.at("per").get<std::string>(), "per", where);
+    buffer.scan = json.value("scan", false);
+    buffer.copy_of = json.value("copy_of", "");
+    if (json.contains("clear")) {
+        if (json["clear"] == "range_first") {
+            buffer.clear = LayoutBuffer::Clear::range_first;
+        } else {
+            buffer.clear = LayoutBuffer::Clear::value;
+            buffer.clear_value = json["clear"].get<uint32_t>();
+        }
+    }
+    if (buffer.scan && (buffer.per != LayoutBuffer::Per::list || buffer.element_bytes != 4)) {
+        throw Error(ErrorKind::input, "'scan' needs one r32_uint per list", where, "change 'per' or 'format' of " + buffer.block);
+    }
+    return buffer;
+}
+
+}  // namespace
+
+Layout parse_layout(std::string_view text, const std::string& where) {
+    try {
+        nlohmann::json json = nlohmann::json::parse(text);
+        Layout layout;
+        layout.name = json.at("name").get<std::string>();
+        layout.summary = json.value("summary", "");
+        layout.source = json.value("source", "");
+        layout.lossless = json.value("lossless", true);
+        for (const auto& buffer : json.at("buffers")) layout.buffers.push_back(parse_buffer(buffer, where));
+        return layout;
+    } catch (const nlohmann::json::exception& e) {
+        throw Error(ErrorKind::input, std::string("not a layout's manifest: ") + e.what(), where, "see ARCHITECTURE.md, A new layout");
+    }
+}
+
+std::vector<std::string> layout_names() {
+    std::vector<std::string> names;
+    for (const auto& entry : kLayoutTable) names.emplace_back(entry.name);
+    return names;
+}
+
+Layout find_layout(const std::string& name) {
+    std::string known;
+    for (const auto& entry : kLayoutTable) {
+        if (name == entry.name) return parse_layout(entry.manifest, name + "/layout.json");
+        known += (known.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    throw Error(ErrorKind::usage, "no S-buffer layout '" + name + "'", "--layout", "use one of " + known);
+}
+
+}  // namespace gnomon

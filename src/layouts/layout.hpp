@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// S-buffer layouts: a folder with layout.glsl (count, emit, begin, next) and layout.json (its buffers). No C++ belongs to a layout.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "gpu/gpu.hpp"
+
+namespace gnomon {
+
+/// One buffer of a layout, as its manifest declares it.
+struct LayoutBuffer {
+    enum class Per { once, list, range };
+    enum class Clear { no, value, range_first };
+
+    std::string block;                      ///< The storage block that writes it.
+    std::string texel;                      ///< The texel buffer that reads it; empty: not read by the shadow test.
+    gpu::Texel format = gpu::Texel::r32_uint;
+    uint32_t element_bytes = 4;
+    Per per = Per::once;                    ///< One element for the view, per list (texel and cell), or per range.
+    bool scan = false;                      ///< After the count pass: replaced by its exclusive prefix sum.
+    std::string copy_of;                    ///< After that: a copy of this buffer.
+    Clear clear = Clear::no;                ///< Before the fill pass.
+    uint32_t clear_value = 0;
+};
+
+struct Layout {
+    std::string name;
+    std::string summary;
+    std::string source;   ///< Paper and section.
+    bool lossless = true;
+    std::vector<LayoutBuffer> buffers;
+};
+
+/// Names of the layouts that are built in.
+std::vector<std::string> layout_names();
+
+/// Errors: ErrorKind::usage, naming those that exist.
+Layout find_layout(const std::string& name);
+
+/// Parse a manifest. Errors: ErrorKind::input naming `where` and the member.
+Layout parse_layout(std::string_view json, const std::string& where);
+
+}  // namespace gnomon

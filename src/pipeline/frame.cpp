@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame: the one place where the order of the stages can be read.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <gnomon/error.hpp>
+#include <gnomon/render.hpp>
+
+#include "pipeline/memory_plan.hpp"
+#include "pipeline/view.hpp"
+#include "shared/film.h"
+#include "stages/sample.hpp"
+
+namespace gnomon {
+
+struct Renderer::Impl {
+    Impl(const std::string& choice, bool validate) : device(choice, validate), programs(device) {}
+    gpu::Device device;
+    Programs programs;
+};
+
+namespace {
+
+constexpr uint32_t kMostLights = 32;
+
+void check_range(const char* option, uint64_t value, uint64_t low, uint64_t high) {
+    if (value >= low && value <= high) return;
+    throw Error(ErrorKind::usage, std::string(option) + " is " + std::to_string(value), "settings",
+                "use " + std::to_string(low) + " to " + std::to_string(high));
+}
+
+void check(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings) {
+    check_range("width", settings.width, 1, 16384);
+    check_range("height", settings.height, 1, 16384);
+    check_range("spp", settings.spp, 1, 65536);
+    check_range("shadow resolution", settings.shadow_res, 1, 16384);
+    check_range("number of poses", poses.size(), 2, 65);
+    if (scene.triangles.empty()) throw Error(ErrorKind::input, "the scene has no triangles", scene.path.string(), "add a mesh with triangles");
+    if (settings.camera >= scene.cameras.size()) {
+        throw Error(ErrorKind::usage, "there is no camera " + std::to_string(settings.camera), scene.path.string(),
+                    "the scene has " + std::to_string(scene.cameras.size()));
+    }
+    if (scene.lights.size() > kMostLights) {
+        throw Error(ErrorKind::input, std::to_string(scene.lights.size()) + " lights", scene.path.string(), "use at most " + std::to_string(kMostLights));
+    }
+    if (settings.method != "exact") {
+        throw Error(ErrorKind::usage, "no method '" + settings.method + "'", "--method", "use exact");
+    }
+    if (settings.raster != "auto" && settings.raster != "conservative") {
+        throw Error(ErrorKind::usage, "method exact cannot use raster '" + settings.raster + "'", "--raster", "use conservative");
+    }
+}
+
+// The lights' records, comp_shaders/shared/film.h. A point light contributes nothing yet.
+std::vector<glm::vec4> light_records(const Scene& scene, const std::vector<Pose>& poses) {
+    std::vector<glm::vec4> records;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        bool spot = light.kind == LightKind::spot;
+        glm::vec3 power = light.kind == LightKind::point ? glm::vec3(0.0f) : light.color * light.intensity;
+        records.emplace_back(power, std::bit_cast<float>(spot ? shared::kLightSpot : shared::kLightDirectional));
+        double inner = std::cos(static_cast<double>(light.inner_cone)), outer = std::cos(static_cast<double>(light.outer_cone));
+        double scale = 1.0 / std::max(1e-3, inner - outer);
+        records.emplace_back(static_cast<float>(scale), static_cast<float>(-outer * scale), light.range, 0.0f);
+        for (const Pose& pose : poses) {
+            const Rigid& frame = pose.lights[i];
+            records.emplace_back(glm::vec3(frame.translation), 0.0f);
+            records.emplace_back(frame.rotation.x, frame.rotation.y, frame.rotation.z, frame.rotation.w);
+        }
+    }
+    if (records.empty()) records.emplace_back(0.0f);
+    return records;
+}
+
+Channel channel(const std::string& name, const float* plane, size_t pixels) { return {name, std::vector<float>(plane, plane + pixels)}; }
+
+// Means over samples and hits (cli.md, Meaning of the output).
+void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp) {
+    size_t pixels = size_t(frame.width) * frame.height;
+    const char* names[] = {"R", "G", "B", "A", "Z"};
+    for (uint32_t plane = 0; plane < shared::kFilmVisibility; ++plane) {
+        frame.channels.push_back(channel(names[plane], film.data() + plane * pixels, pixels));
+    }
+    const float* hits = film.data() + shared::kFilmHits * pixels;
+    for (size_t i = 0; i < pixels; ++i) {
+        for (uint32_t plane : {shared::kFilmRed, shared::kFilmGreen, shared::kFilmBlue, shared::kFilmHits}) {
+            frame.channels[plane].values[i] /= static_cast<float>(spp);
+        }
+        frame.channels[shared::kFilmDepth].values[i] = hits[i] > 0.0f ? frame.channels[shared::kFilmDepth].values[i] / hits[i] : 0.0f;
+    }
+    for (uint32_t light = 0; light < frame.light_count; ++light) {
+        Channel mean = channel("visibility." + std::to_string(light), film.data() + (shared::kFilmVisibility + light) * pixels, pixels);
+        Channel error{"visibility_var." + std::to_string(light), std::vector<float>(pixels)};
+        for (size_t i = 0; i < pixels; ++i) {
+            double n = hits[i];
+            double p = n > 0.0 ? mean.values[i] / n : 0.0;
+            mean.values[i] = static_cast<float>(p);
+            error.values[i] = n > 0.0 ? static_cast<float>(std::sqrt(p * (1.0 - p) / std::max(n - 1.0, 1.0))) : 0.0f;
+        }
+        frame.channels.push_back(std::move(mean));
+        frame.channels.push_back(std::move(error));
+    }
+}
+
+void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp) {
+    frame.samples.resize(size_t(frame.width) * frame.height * spp);
+    std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit();
+    std::vector<float> depths = sampler.batch_depths();
+    for (size_t slot = 0; slot < hits.size(); ++slot) {
+        uint32_t item = static_cast<uint32_t>(slot / shared::kTileTexels);
+        uint32_t tile = batch.tile_first + item / batch.stratum_count;
+        uint32_t s = batch.stratum_first + item % batch.stratum_count;
+        uint32_t x = tile % grid.tiles_x * shared::kTileSize + slot % 8, y = tile / grid.tiles_x * shared::kTileSize + slot / 8 % 8;
+        if (x >= frame.width || y >= frame.height || hits[slot] == shared::kNone) continue;
+        uint32_t lights = frame.light_count == 32 ? ~0u : (1u << frame.light_count) - 1u;
+        frame.samples[(size_t(y) * frame.width + x) * spp + s] = {hits[slot] & ~shared::kReversed, depths[slot], lit[slot] & lights};
+    }
+}
+
+FrameStats statistics(const gpu::Device& device) {
+    FrameStats stats;
+    for (const gpu::StageTime& t : device.stage_times()) stats.stages.push_back({t.name, t.seconds, t.dispatches});
+    stats.buffer_bytes = device.largest_bytes();
+    stats.peak_bytes = device.peak_bytes();
+    stats.device = device.description().name;
+    return stats;
+}
+
+}  // namespace
+
+Renderer::Renderer(const std::string& device, bool validate) : impl_(std::make_unique<Impl>(device, validate)) {}
+Renderer::~Renderer() = default;
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer& Renderer::operator=(Renderer&&) noexcept = default;
+
+const DeviceDescription& Renderer::device() const { return impl_->device.description(); }
+
+Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings, const Progress& progress) {
+    auto start = std::chrono::steady_clock::now();
+    check(scene, poses, settings);
+    gpu::Device& device = impl_->device;
+    Programs& programs = impl_->programs;
+    Layout layout = find_layout(settings.layout);
+    device.reset_statistics();
+    uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;
+    device.set_budget(budget);
+
+    Frame frame;
+    frame.width = settings.width;
+    frame.height = settings.height;
+    frame.light_count = static_cast<uint32_t>(scene.lights.size());
+
+    // The scene, posed.
+    Bounds bounds = bounds_of(scene, poses);
+    Geometry geometry = pose_geometry(device, programs, scene, poses);
+    gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(scene, poses));
+
+    // The camera's prisms.
+    View view = camera_view(scene.cameras[settings.camera], poses, settings.camera, settings.width, settings.height);
+    Bins bins = bin_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, is_still(poses)));
+
+    // Each light's prisms, and how many ranges they have.
+    std::vector<LightSide> sides;
+    for (uint32_t i = 0; i < frame.light_count; ++i) {
+        if (scene.lights[i].kind == LightKind::point) continue;
+        LightSide side;
+        side.light_ix = i;
+        side.view = light_view(scene.lights[i], poses, i, bounds, settings.shadow_res);
+        sides.push_back(std::move(side));
+    }
+    for (LightSide& side : sides) {
+        side.bins = bin_prisms(device, programs, geometry, side.view, light_cells(geometry.segment_count, is_still(poses)));
+        side.s_buffer = std::make_unique<SBuffer>(device, programs, geometry, side.bins, layout, "raster/conservative", side.view.orthographic);
+        frame.stats.counts["bin_entries." + std::to_string(side.light_ix)] = side.bins.entry_count;
+        frame.stats.counts["ranges." + std::to_string(side.light_ix)] = side.s_buffer->range_count();
+    }
+
+    // The samples, a batch at a time. An S-buffer that fits is filled once, else in bands for every batch.
+    uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget);
+    Sampler sampler(device, programs, geometry, view, bins, layout.name, settings.spp, settings.seed, frame.light_count, most_slots, settings.keep_samples);
+    uint64_t left = budget - std::min(budget, device.live_bytes());
+    for (LightSide& side : sides) {
+        side.bands = side.s_buffer->bands(left / sides.size());
+        if (side.bands.size() == 1) side.s_buffer->fill(side.bands[0]);
+    }
+    std::vector<Batch> batches = split_batches(bins.grid, settings.spp, most_slots);
+    for (size_t b = 0; b < batches.size(); ++b) {
+        if (progress && !progress(static_cast<double>(b) / static_cast<double>(batches.size()))) break;
+        sampler.trace(batches[b]);
+        for (LightSide& side : sides) {
+            for (const Band& band : side.bands) {
+                if (side.bands.size() > 1) side.s_buffer->fill(band);
+                sampler.test_shadows(side, band, occlusion_tolerance(bounds));
+            }
+        }
+        sampler.shade(lights);
+        if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp);
+    }
+    resolve(frame, sampler.film(), settings.spp);
+    if (progress) progress(1.0);
+
+    std::map<std::string, uint64_t> counts = std::move(frame.stats.counts);
+    frame.stats = statistics(device);
+    frame.stats.counts = std::move(counts);
+    frame.stats.counts["triangles"] = geometry.triangle_count;
+    frame.stats.counts["prisms"] = uint64_t(geometry.triangle_count) * geometry.segment_count;
+    frame.stats.counts["camera_cells"] = bins.grid.cell_count;
+    frame.stats.counts["bin_entries.camera"] = bins.entry_count;
+    frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
+    frame.stats.counts["hits"] = sampler.hit_count();
+    frame.stats.counts["shadow_tests"] = sampler.shadow_counts().cast;
+    frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;
+    frame.stats.counts["ranges_tested"] = sampler.shadow_counts().tested;
+    frame.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return frame;
+}
+
+}  // namespace gnomon

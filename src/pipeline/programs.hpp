@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The compiled stages, by name, made on first use.
+#pragma once
+
+#include <initializer_list>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu.hpp"
+
+namespace gnomon {
+
+/// SPIR-V embedded at build time under a stage's name: "sample/trace", or "sample/shadow@array" where the stage depends on the layout.
+/// Errors: ErrorKind::internal if there is none.
+gpu::Shader find_shader(const std::string& name);
+
+class Programs {
+public:
+    explicit Programs(gpu::Device& device) : device_(device) {}
+
+    /// The stage specialised with constant_id 0, 1, ... = constants. Valid as long as this object.
+    const gpu::Program& get(const std::string& name, std::initializer_list<uint32_t> constants = {});
+
+private:
+    gpu::Device& device_;
+    std::map<std::pair<std::string, std::vector<uint32_t>>, gpu::Program> programs_;
+};
+
+}  // namespace gnomon

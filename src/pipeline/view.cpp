@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/view.hpp"
+
+#include <cmath>
+#include <gnomon/error.hpp>
+#include <limits>
+
+namespace gnomon {
+namespace {
+
+constexpr float kFarthest = 3.4e38f;
+
+struct Axes {
+    glm::dvec3 right, up, back;
+};
+
+Axes axes_of(const Rigid& frame) {
+    glm::dmat3 m = glm::mat3_cast(glm::normalize(frame.rotation));
+    return {m[0], m[1], m[2]};
+}
+
+// Rows in double for p - origin in double, rounded; the rounding of the origin goes into the constant terms.
+ViewKey make_key(const glm::dvec3& origin, const glm::dmat4x3& rows, const glm::dvec4& constants) {
+    ViewKey key;
+    key.origin = glm::vec3(origin);
+    glm::dvec3 rest = glm::dvec3(key.origin) - origin;
+    glm::vec4* out[4] = {&key.row_x, &key.row_y, &key.row_z, &key.row_w};
+    for (int i = 0; i < 4; ++i) *out[i] = glm::vec4(glm::dvec4(rows[i], glm::dot(rows[i], rest) + constants[i]));
+    return key;
+}
+
+ViewKey perspective_key(const Rigid& frame, double scale_x, double scale_y) {
+    Axes a = axes_of(frame);
+    return make_key(frame.translation, glm::dmat4x3(scale_x * a.right, -scale_y * a.up, glm::dvec3(0.0), -a.back),
+                    glm::dvec4(0.0, 0.0, -1.0, 0.0));
+}
+
+ViewKey orthographic_key(const Rigid& frame, const glm::dvec3& origin, double scale_x, double scale_y, double x, double y) {
+    Axes a = axes_of(frame);
+    return make_key(origin, glm::dmat4x3(scale_x * a.right, -scale_y * a.up, -a.back, glm::dvec3(0.0)), glm::dvec4(x, y, 0.0, 1.0));
+}
+
+View directional_view(const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution) {
+    glm::dvec3 lower(bounds.lower), upper(bounds.upper);
+    glm::dvec3 centre = 0.5 * (lower + upper);
+    glm::dvec2 low(std::numeric_limits<double>::max()), high(-std::numeric_limits<double>::max());
+    for (const Pose& pose : poses) {
+        Axes a = axes_of(pose.lights[light_ix]);
+        for (int corner = 0; corner < 8; ++corner) {
+            glm::dvec3 p(corner & 1 ? upper.x : lower.x, corner & 2 ? upper.y : lower.y, corner & 4 ? upper.z : lower.z);
+            glm::dvec2 q(glm::dot(p - centre, a.right), -glm::dot(p - centre, a.up));
+            low = glm::min(low, q);
+            high = glm::max(high, q);
+        }
+    }
+    View view;
+    view.width = view.height = resolution;
+    view.orthographic = true;
+    view.depth_near = -kFarthest;
+    view.depth_far = kFarthest;
+    // A little wider than the bounds, whose corners are rounded; never empty, for a flat scene seen from its side.
+    glm::dvec2 half = 0.5 * (high - low) * (1.0 + 1e-5) + 1e-6 * (glm::length(upper - lower) + 1e-30);
+    glm::dvec2 scale = 0.5 * resolution / half;
+    glm::dvec2 offset = -0.5 * (low + high) * scale;
+    view.scale_x = static_cast<float>(scale.x);
+    view.scale_y = static_cast<float>(scale.y);
+    for (const Pose& pose : poses) {
+        view.keys.push_back(orthographic_key(pose.lights[light_ix], centre, scale.x, scale.y, offset.x, offset.y));
+    }
+    return view;
+}
+
+View spot_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution) {
+    constexpr double kWidest = 1.5533430342749532;  // 89 degrees
+    if (light.outer_cone >= kWidest) {
+        throw Error(ErrorKind::input, "the outer cone of spot light '" + light.name + "' is 89 degrees or more from its axis",
+                    "lights[" + std::to_string(light_ix) + "]", "narrow the cone or use several spots");
+    }
+    double slope = std::tan(static_cast<double>(light.outer_cone));
+    double scale = 0.5 * resolution / slope * (1.0 - 1e-5);
+    View view;
+    view.width = view.height = resolution;
+    view.depth_near = -1.0f / occlusion_tolerance(bounds);
+    view.depth_far = 0.0f;
+    view.scale_x = view.scale_y = static_cast<float>(scale);
+    view.cone_tan2 = static_cast<float>(slope * slope);
+    for (const Pose& pose : poses) view.keys.push_back(perspective_key(pose.lights[light_ix], scale, scale));
+    return view;
+}
+
+}  // namespace
+
+View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t camera_ix, uint32_t width, uint32_t height) {
+    View view;
+    view.width = width;
+    view.height = height;
+    view.orthographic = camera.kind == CameraKind::orthographic;
+    double scale = view.orthographic ? 0.5 * height / camera.ymag : 0.5 * height / std::tan(0.5 * camera.yfov);
+    view.scale_x = view.scale_y = static_cast<float>(scale);
+    if (view.orthographic) {
+        view.depth_near = static_cast<float>(camera.znear);
+        view.depth_far = camera.zfar > 0.0 ? static_cast<float>(camera.zfar) : kFarthest;
+    } else {
+        view.depth_near = static_cast<float>(-1.0 / camera.znear);
+        view.depth_far = camera.zfar > 0.0 ? static_cast<float>(-1.0 / camera.zfar) : 0.0f;
+    }
+    for (const Pose& pose : poses) {
+        const Rigid& frame = pose.cameras[camera_ix];
+        view.keys.push_back(view.orthographic ? orthographic_key(frame, frame.translation, scale, scale, 0.0, 0.0)
+                                              : perspective_key(frame, scale, scale));
+    }
+    return view;
+}
+
+View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution) {
+    switch (light.kind) {
+        case LightKind::directional: return directional_view(poses, light_ix, bounds, resolution);
+        case LightKind::spot: return spot_view(light, poses, light_ix, bounds, resolution);
+        case LightKind::point: break;
+    }
+    throw Error(ErrorKind::internal, "a point light has no single view", "lights[" + std::to_string(light_ix) + "]", "report this as a bug");
+}
+
+float occlusion_tolerance(const Bounds& bounds) {
+    glm::vec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
+    return std::ldexp(std::max({largest.x, largest.y, largest.z, 1e-30f}), -20);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views: a projection with motion. Camera, directional and spot lights become the same thing here.
+#pragma once
+
+#include <gnomon/render.hpp>
+#include <gnomon/scene.hpp>
+#include <vector>
+
+#include "shared/params.h"
+
+namespace gnomon {
+
+/// From world to raster space (comp_shaders/math/cover.h) at one key: raster = rows * (p - origin, 1).
+struct ViewKey {
+    glm::vec4 row_x, row_y, row_z, row_w;
+    glm::vec3 origin;
+};
+
+struct View {
+    uint32_t width = 0;   ///< Texels.
+    uint32_t height = 0;
+    bool orthographic = false;
+    float depth_near = 0.0f;  ///< Surfaces are seen where depth_near < depth < depth_far.
+    float depth_far = 0.0f;
+    float scale_x = 1.0f;     ///< Raster units per metre (orthographic) or per unit slope (perspective).
+    float scale_y = 1.0f;
+    float cone_tan2 = 0.0f;   ///< Spots: squared tangent of the outer half angle.
+    std::vector<ViewKey> keys;
+};
+
+/// The camera's view. Its horizontal field is that of the image's aspect.
+View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t camera_ix, uint32_t width, uint32_t height);
+
+/// A directional light's view: its map holds `bounds` at every key. A spot's: its map holds the outer cone.
+/// Errors: ErrorKind::input for a cone that no plane holds (half angle of 89 degrees or more); point lights are not views.
+View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution);
+
+/// Metres along a hit's normal within which nothing occludes: 2^-20 of the scene's largest coordinate.
+float occlusion_tolerance(const Bounds& bounds);
+
+}  // namespace gnomon

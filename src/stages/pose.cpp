@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/pose.hpp"
+
+#include <bit>
+#include <numeric>
+
+#include "shared/params.h"
+#include "stages/grid.hpp"
+
+namespace gnomon {
+namespace {
+
+uint32_t bits(float value) { return std::bit_cast<uint32_t>(value); }
+
+std::vector<glm::uvec4> rest_vertices(const Scene& scene) {
+    std::vector<glm::uvec4> rest;
+    rest.reserve(scene.vertices.size() * 3);
+    for (const Vertex& v : scene.vertices) {
+        const Morph& morph = scene.morphs[v.morph];
+        rest.emplace_back(bits(v.position.x), bits(v.position.y), bits(v.position.z), v.influence_first);
+        rest.emplace_back(bits(v.normal.x), bits(v.normal.y), bits(v.normal.z), v.influence_count);
+        rest.emplace_back(morph.target_count, morph.delta_first + v.morph_vertex, morph.vertex_count, morph.weight_first);
+    }
+    return rest;
+}
+
+std::vector<glm::vec4> padded(const std::vector<glm::vec3>& values) {
+    std::vector<glm::vec4> result;
+    result.reserve(values.size());
+    for (const glm::vec3& v : values) result.emplace_back(v, 0.0f);
+    return result;
+}
+
+void upload_surfaces(gpu::Device& device, const Scene& scene, Geometry& geometry) {
+    std::vector<glm::uvec4> triangles;
+    for (const Triangle& t : scene.triangles) triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2], t.material);
+    triangles.emplace_back(0u, 0u, 0u, 0u);
+    geometry.triangles = gpu::upload_new(device, "triangles", triangles);
+
+    std::vector<glm::vec4> attributes;
+    for (const Vertex& v : scene.vertices) {
+        attributes.emplace_back(v.uv, 0.0f, 0.0f);
+        attributes.push_back(v.color);
+    }
+    geometry.attributes = gpu::upload_new(device, "attributes", attributes);
+
+    std::vector<uint32_t> texels;
+    std::vector<uint32_t> first_texel;
+    for (const Image& image : scene.images) {
+        first_texel.push_back(static_cast<uint32_t>(texels.size()));
+        for (size_t i = 0; i + 3 < image.rgba.size(); i += 4) {
+            texels.push_back(static_cast<uint32_t>(image.rgba[i]) | static_cast<uint32_t>(image.rgba[i + 1]) << 8 |
+                             static_cast<uint32_t>(image.rgba[i + 2]) << 16 | static_cast<uint32_t>(image.rgba[i + 3]) << 24);
+        }
+    }
+    geometry.texels = gpu::upload_new(device, "texels", texels);
+
+    std::vector<glm::uvec4> materials;
+    for (const Material& m : scene.materials) {
+        materials.emplace_back(bits(m.base_color.x), bits(m.base_color.y), bits(m.base_color.z), bits(m.base_color.w));
+        if (m.image < 0) {
+            materials.emplace_back(shared::kNone, 1u, 1u, 0u);
+        } else {
+            const Image& image = scene.images[static_cast<size_t>(m.image)];
+            uint32_t wrap = static_cast<uint32_t>(m.wrap_u) | static_cast<uint32_t>(m.wrap_v) << 2;
+            materials.emplace_back(first_texel[static_cast<size_t>(m.image)], image.width, image.height, wrap);
+            geometry.textured = true;
+        }
+    }
+    geometry.materials = gpu::upload_new(device, "materials", materials);
+}
+
+}  // namespace
+
+Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& scene, const std::vector<Pose>& poses) {
+    using gpu::Texel;
+    // Each key is bound on its own, so its first byte must lie on the device's alignments.
+    uint64_t alignment = std::lcm(device.limits().storage_alignment, device.limits().texel_alignment);
+    uint32_t step = static_cast<uint32_t>(std::max<uint64_t>(1, alignment / sizeof(glm::vec4)));
+    Geometry geometry;
+    geometry.triangle_count = static_cast<uint32_t>(scene.triangles.size());
+    geometry.vertex_count = static_cast<uint32_t>(scene.vertices.size());
+    geometry.vertex_stride = (geometry.vertex_count + step - 1) / step * step;
+    geometry.segment_count = static_cast<uint32_t>(poses.size()) - 1;
+    upload_surfaces(device, scene, geometry);
+
+    std::vector<glm::uvec2> influence_words;
+    for (const Influence& i : scene.influences) influence_words.emplace_back(i.matrix, bits(i.weight));
+    gpu::Buffer rest = gpu::upload_new(device, "rest", rest_vertices(scene));
+    gpu::Buffer influences = gpu::upload_new(device, "influences", influence_words);
+    gpu::Buffer morph_positions = gpu::upload_new(device, "morph_positions", padded(scene.morph_positions));
+    gpu::Buffer morph_normals = gpu::upload_new(device, "morph_normals", padded(scene.morph_normals));
+
+    uint64_t key_bytes = uint64_t(geometry.vertex_stride) * sizeof(glm::vec4);
+    geometry.positions = device.allocate("positions", key_bytes * poses.size());
+    geometry.normals = device.allocate("normals", key_bytes * poses.size());
+    std::vector<gpu::Buffer> palettes, weights;
+    gpu::Recorder recorder(device);
+    for (size_t k = 0; k < poses.size(); ++k) {
+        palettes.push_back(gpu::upload_new(device, "palette", poses[k].palette));
+        weights.push_back(gpu::upload_new(device, "morph_weights", poses[k].morph_weights));
+        recorder.dispatch("pose", programs.get("pose/pose"),
+                          bindings({{"rest", &rest, Texel::rgba32_uint},
+                                    {"influences", &influences, Texel::rg32_uint},
+                                    {"palette", &palettes.back(), Texel::rgba32_float},
+                                    {"morph_positions", &morph_positions, Texel::rgba32_float},
+                                    {"morph_normals", &morph_normals, Texel::rgba32_float},
+                                    {"morph_weights", &weights.back(), Texel::r32_float},
+                                    {"Positions", &geometry.positions, {}, k * key_bytes, key_bytes},
+                                    {"Normals", &geometry.normals, {}, k * key_bytes, key_bytes}}),
+                          shared::PoseParams{geometry.vertex_count}, groups_of(geometry.vertex_count, 64));
+    }
+    recorder.submit();
+    return geometry;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene on the device: what does not move is uploaded, vertices are posed at each key.
+#pragma once
+
+#include <gnomon/scene.hpp>
+
+#include "gpu/gpu.hpp"
+#include "pipeline/programs.hpp"
+
+namespace gnomon {
+
+/// Read by all later stages. Vertices of key k start at k * vertex_stride.
+struct Geometry {
+    uint32_t triangle_count = 0;
+    uint32_t vertex_count = 0;
+    uint32_t vertex_stride = 0;  ///< vertex_count, rounded up to keep bindings aligned.
+    uint32_t segment_count = 0;
+    gpu::Buffer triangles;   ///< uvec4 (vertex 0, 1, 2, material); one more, degenerate, behind the last.
+    gpu::Buffer positions;   ///< vec4 per key and vertex, world space.
+    gpu::Buffer normals;     ///< vec4 per key and vertex.
+    gpu::Buffer attributes;  ///< 2 vec4 per vertex: texture coordinates, colour.
+    gpu::Buffer materials;   ///< 2 uvec4 per material: base colour; first texel, width, height, wrap modes.
+    gpu::Buffer texels;      ///< RGBA8 words of all images.
+    bool textured = false;
+};
+
+/// Upload the scene and run the pose stage at every key.
+Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& scene, const std::vector<Pose>& poses);
+
+}  // namespace gnomon

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/sample.hpp"
+
+#include <cmath>
+
+#include "shared/film.h"
+#include "stages/grid.hpp"
+#include "stages/scan.hpp"
+
+namespace gnomon {
+namespace {
+
+using gpu::Texel;
+
+// Hits whose shadow counts share one set of 32-bit counters.
+constexpr uint32_t kCountersHits = 65536;
+
+std::vector<float> srgb_table() {
+    std::vector<float> table(256);
+    for (int i = 0; i < 256; ++i) {
+        double c = i / 255.0;
+        table[static_cast<size_t>(i)] = static_cast<float>(c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4));
+    }
+    return table;
+}
+
+}  // namespace
+
+Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins, const std::string& layout, uint32_t spp,
+                 uint32_t seed, uint32_t light_count, uint64_t most_slots, bool depths)
+    : device_(device),
+      programs_(programs),
+      geometry_(geometry),
+      view_(view),
+      bins_(bins),
+      layout_(layout),
+      spp_(spp),
+      seed_(seed),
+      light_count_(light_count),
+      straddle_(spp % bins.grid.cell_count != 0),
+      depths_(depths) {
+    uint64_t pixels = uint64_t(bins.grid.width) * bins.grid.height;
+    hits_ = device.allocate("hits", most_slots * 4);
+    lit_ = device.allocate("lit", most_slots * 4);
+    queue_ = device.allocate("queue", most_slots * 4);
+    runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
+    ticket_ = device.allocate("ticket", 4);
+    film_ = device.allocate("film", pixels * (shared::kFilmVisibility + light_count) * 4);
+    depth_values_ = device.allocate("depths", depths ? most_slots * 4 : 4);
+    shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
+    srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
+    gpu::Recorder recorder(device);
+    recorder.fill("shade", film_, 0);
+    recorder.submit();
+}
+
+void Sampler::trace(const Batch& batch) {
+    batch_ = batch;
+    uint32_t run_count = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
+    gpu::Recorder recorder(device_);
+    for (uint32_t first = 0; first == 0 || first < bins_.longest; first += shared::kListChunk) {
+        recorder.fill("sample/trace", ticket_, 0);
+        recorder.dispatch("sample/trace", programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0}),
+                          bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
+                                    {"bin_entries", &bins_.entries, Texel::r32_uint},
+                                    {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                    {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                    {"Hits", &hits_},
+                                    {"Ticket", &ticket_}}),
+                          shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count, spp_, seed_, first,
+                                              view_.depth_near, view_.depth_far},
+                          groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
+    }
+    recorder.fill("sample/compact", lit_, 0xffffffffu);
+    recorder.fill("sample/compact", runs_, 0);
+    recorder.dispatch("sample/compact", programs_.get("sample/count_hits"), bindings({{"hits", &hits_, Texel::rgba32_uint}, {"Runs", &runs_}}),
+                      shared::CompactParams{run_count}, groups_of(run_count, 64));
+    Scan scan = record_scan(device_, programs_, recorder, runs_, run_count);
+    recorder.dispatch("sample/compact", programs_.get("sample/compact"),
+                      bindings({{"hits", &hits_, Texel::rgba32_uint}, {"runs", &runs_, Texel::r32_uint}, {"Queue", &queue_}}), shared::CompactParams{run_count},
+                      groups_of(run_count, 64));
+    recorder.submit();
+    queue_count_ = gpu::download_vector<uint32_t>(device_, runs_, 1, uint64_t(run_count) * 4)[0];
+    hit_total_ += queue_count_;
+}
+
+void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
+    if (queue_count_ == 0) return;
+    uint32_t parts = static_cast<uint32_t>(groups_of(std::max(1u, light.bins.longest), shared::kListChunk));
+    if (parts > 1 || !iterators_) {
+        uint64_t bytes = parts > 1 ? hits_.bytes() * 2 : 8;
+        if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
+    }
+    std::vector<gpu::Binding> all = {{"queue", &queue_, Texel::r32_uint},
+                                     {"hits", &hits_, Texel::r32_uint},
+                                     {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                     {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                     {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
+                                     {"Lit", &lit_},
+                                     {"ShadowCounts", &shadow_counts_},
+                                     {"Iterators", &iterators_}};
+    for (const gpu::Binding& b : light.s_buffer->read_bindings()) all.push_back(b);
+    gpu::Recorder recorder(device_);
+    recorder.fill("sample/shadow", shadow_counts_, 0);
+    for (uint32_t part = 0; part < parts; ++part) {
+        shared::ShadowParams params{bins_.grid,
+                                    queue_count_,
+                                    batch_.tile_first,
+                                    batch_.stratum_first,
+                                    batch_.stratum_count,
+                                    spp_,
+                                    seed_,
+                                    light.light_ix,
+                                    light.view.width,
+                                    light.view.height,
+                                    light.bins.grid.tiles_x,
+                                    light.bins.grid.cell_count,
+                                    light.view.scale_x,
+                                    light.view.scale_y,
+                                    light.view.cone_tan2,
+                                    tolerance,
+                                    light.view.depth_near,
+                                    band.item_first,
+                                    band.item_count,
+                                    light.s_buffer->range_base(),
+                                    part};
+        recorder.dispatch("sample/shadow",
+                          programs_.get("sample/shadow@" + layout_, {light.view.orthographic, view_.orthographic, straddle_, true, parts > 1}), all, params,
+                          groups_of(queue_count_, 64));
+    }
+    recorder.submit();
+    uint64_t blocks = groups_of(queue_count_, kCountersHits);
+    std::vector<uint32_t> values = gpu::download_vector<uint32_t>(device_, shadow_counts_, blocks * 3);
+    for (uint64_t i = 0; i < blocks; ++i) {
+        counts_.visited += values[i * 3];
+        counts_.tested += values[i * 3 + 1];
+        counts_.cast += values[i * 3 + 2] / parts;
+    }
+}
+
+void Sampler::shade(const gpu::Buffer& lights) {
+    gpu::Recorder recorder(device_);
+    recorder.dispatch("sample/shade", programs_.get("sample/shade", {view_.orthographic, straddle_, depths_, geometry_.textured}),
+                      bindings({{"hits", &hits_, Texel::r32_uint},
+                                {"lit", &lit_, Texel::r32_uint},
+                                {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                {"positions", &geometry_.positions, Texel::rgba32_float},
+                                {"normals", &geometry_.normals, Texel::rgba32_float},
+                                {"attributes", &geometry_.attributes, Texel::rgba32_float},
+                                {"materials", &geometry_.materials, Texel::rgba32_uint},
+                                {"texels", &geometry_.texels, Texel::r32_uint},
+                                {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
+                                {"lights", &lights, Texel::rgba32_float},
+                                {"Film", &film_},
+                                {"Depths", &depth_values_}}),
+                      shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count, spp_, seed_,
+                                          light_count_, static_cast<uint32_t>(view_.keys.size())},
+                      batch_.tile_count);
+    recorder.submit();
+}
+
+std::vector<float> Sampler::film() const {
+    uint64_t pixels = uint64_t(bins_.grid.width) * bins_.grid.height;
+    return gpu::download_vector<float>(device_, film_, pixels * (shared::kFilmVisibility + light_count_));
+}
+
+std::vector<uint32_t> Sampler::batch_hits() const { return gpu::download_vector<uint32_t>(device_, hits_, batch_.slot_count()); }
+std::vector<uint32_t> Sampler::batch_lit() const { return gpu::download_vector<uint32_t>(device_, lit_, batch_.slot_count()); }
+std::vector<float> Sampler::batch_depths() const { return gpu::download_vector<float>(device_, depth_values_, batch_.slot_count()); }
+
+}  // namespace gnomon

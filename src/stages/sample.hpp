@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The wavefront camera sampler: trace, compact, shadow test, shade; a queue between the stages, a batch of samples at a time.
+#pragma once
+
+#include "stages/raster.hpp"
+
+namespace gnomon {
+
+/// A rectangle of work: tiles [tile_first, tile_first + tile_count) and strata [stratum_first, ...) of each of their pixels.
+struct Batch {
+    uint32_t tile_first = 0;
+    uint32_t tile_count = 0;
+    uint32_t stratum_first = 0;
+    uint32_t stratum_count = 0;
+
+    uint64_t slot_count() const { return uint64_t(tile_count) * stratum_count * shared::kTileTexels; }
+};
+
+/// A light's side of the shadow test.
+struct LightSide {
+    uint32_t light_ix = 0;
+    View view;
+    Bins bins;
+    std::unique_ptr<SBuffer> s_buffer;
+    std::vector<Band> bands;
+};
+
+struct ShadowCounts {
+    uint64_t visited = 0;  ///< Ranges looked at.
+    uint64_t tested = 0;   ///< Ranges whose triangle was tested.
+    uint64_t cast = 0;     ///< Shadow tests: hits, over the lights that could reach them.
+};
+
+class Sampler {
+public:
+    /// counting: fill shadow_counts(), at a cost of some percent. depths: keep each sample's depth.
+    Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins, const std::string& layout, uint32_t spp,
+            uint32_t seed, uint32_t light_count, uint64_t most_slots, bool depths);
+
+    /// Forget the batch before: find the nearest triangle of each sample, then queue those that hit.
+    void trace(const Batch& batch);
+    /// Test the queue against a band of a light's S-buffer that is filled now.
+    void test_shadows(const LightSide& light, const Band& band, float tolerance);
+    /// Add the batch to the film.
+    void shade(const gpu::Buffer& lights);
+
+    std::vector<float> film() const;  ///< Planes as in comp_shaders/shared/film.h.
+    uint64_t hit_count() const { return hit_total_; }
+    const ShadowCounts& shadow_counts() const { return counts_; }
+
+    std::vector<uint32_t> batch_hits() const;   ///< Per slot.
+    std::vector<uint32_t> batch_lit() const;
+    std::vector<float> batch_depths() const;
+
+private:
+    gpu::Device& device_;
+    Programs& programs_;
+    const Geometry& geometry_;
+    const View& view_;
+    const Bins& bins_;
+    std::string layout_;
+    uint32_t spp_, seed_, light_count_;
+    bool straddle_, depths_;
+    Batch batch_;
+    uint32_t queue_count_ = 0;
+    uint64_t hit_total_ = 0;
+    ShadowCounts counts_;
+    gpu::Buffer hits_, lit_, queue_, runs_, ticket_, film_, depth_values_, shadow_counts_, iterators_, srgb_to_linear_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/scan.hpp"
+
+#include "shared/params.h"
+#include "stages/grid.hpp"
+
+namespace gnomon {
+namespace {
+
+// Up to this many values are scanned by one invocation.
+constexpr uint32_t kSerialCount = 1024;
+
+void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values, uint32_t count,
+                  bool first_level, Scan& scan) {
+    using gpu::Texel;
+    if (count <= kSerialCount) {
+        recorder.dispatch("scan", programs.get("scan/serial", {first_level}),
+                          bindings({{"values", &values, Texel::r32_uint}, {"Values", &values}, {"Longest", &scan.longest}}), shared::ScanParams{count}, 1);
+        return;
+    }
+    uint32_t runs = static_cast<uint32_t>(groups_of(count, shared::kScanRun));
+    gpu::Buffer sums = device.allocate("scan_sums", scan_bytes(runs));
+    recorder.fill("scan", sums, 0);
+    recorder.dispatch("scan", programs.get("scan/reduce", {first_level}),
+                      bindings({{"values", &values, Texel::rgba32_uint}, {"Sums", &sums}, {"Longest", &scan.longest}}),
+                      shared::ScanParams{count}, groups_of(runs, 64));
+    record_level(device, programs, recorder, sums, runs, false, scan);
+    recorder.dispatch("scan", programs.get("scan/spread"),
+                      bindings({{"values", &values, Texel::rgba32_uint}, {"sums", &sums, Texel::r32_uint}, {"Values", &values}}),
+                      shared::ScanParams{count}, groups_of(runs, 64));
+    scan.sums.push_back(std::move(sums));
+}
+
+}  // namespace
+
+uint64_t scan_bytes(uint64_t count) { return (count + 1 + 3) / 4 * 16; }
+
+Scan record_scan(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values, uint32_t count) {
+    Scan scan;
+    scan.longest = device.allocate("scan_longest", 4);
+    recorder.fill("scan", scan.longest, 0);
+    record_level(device, programs, recorder, values, count, true, scan);
+    return scan;
+}
+
+uint32_t longest_of(gpu::Device& device, const Scan& scan) { return gpu::download_vector<uint32_t>(device, scan.longest, 1)[0]; }
+
+}  // namespace gnomon

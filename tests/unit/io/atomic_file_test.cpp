@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Output files: whole or absent, and errors that say why.
+#include "io/atomic_file.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+
+#include "test_folder.hpp"
+#include "throws.hpp"
+
+namespace gnomon::test {
+
+using io::AtomicFile;
+using Names = std::set<std::string>;
+
+class AtomicFileTest : public TestFolder {};
+
+std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+
+/// Files of this process are at most so long, as long as this lives.
+class FileSizeLimit {
+public:
+    explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit limit{bytes, before_.rlim_max};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    ~FileSizeLimit() {
+        setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+TEST_F(AtomicFileTest, HasItsNameOnlyAfterCommit) {
+    AtomicFile file(folder / "a.txt");
+    file.write(bytes_of("hello"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+    file.commit();
+    EXPECT_EQ(content_of(folder / "a.txt"), "hello");
+    EXPECT_EQ(names(), Names{"a.txt"});
+}
+
+TEST_F(AtomicFileTest, LeavesNothingWithoutCommitAndKeepsTheOldFile) {
+    put_content(folder / "a.txt", "old");
+    {
+        AtomicFile file(folder / "a.txt");
+        file.write(bytes_of("new"));
+    }
+    EXPECT_EQ(content_of(folder / "a.txt"), "old");
+    EXPECT_EQ(names(), Names{"a.txt"});
+}
+
+TEST_F(AtomicFileTest, WritesWhereItSeeks) {
+    AtomicFile file(folder / "a.txt");
+    file.write(bytes_of("0123456789"));
+    EXPECT_EQ(file.position(), 10u);
+    file.seek(2);
+    file.write(bytes_of("ab"));
+    EXPECT_EQ(file.position(), 4u);
+    file.commit();
+    EXPECT_EQ(content_of(folder / "a.txt"), "01ab456789");
+}
+
+TEST_F(AtomicFileTest, HasTheModeOfAnyNewFile) {
+    const mode_t mask = umask(027);
+    io::write_file(folder / "a.txt", "x");
+    umask(mask);
+    struct stat status {};
+    ASSERT_EQ(stat((folder / "a.txt").c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 0777u, 0640u);
+}
+
+TEST_F(AtomicFileTest, TwoFilesInOneFolderDoNotMeet) {
+    AtomicFile first(folder / "a.txt");
+    AtomicFile second(folder / "b.txt");
+    first.write(bytes_of("a"));
+    second.write(bytes_of("b"));
+    first.commit();
+    second.commit();
+    EXPECT_EQ(content_of(folder / "a.txt"), "a");
+    EXPECT_EQ(content_of(folder / "b.txt"), "b");
+}
+
+TEST_F(AtomicFileTest, FollowsASymbolicLink) {
+    put_content(folder / "target", "old");
+    std::filesystem::create_symlink("target", folder / "link");
+    io::write_file(folder / "link", "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(content_of(folder / "target"), "new");
+}
+
+TEST_F(AtomicFileTest, AcceptsTheLongestName) {
+    const std::string longest(255, 'n');
+    io::write_file(folder / longest, "x");
+    EXPECT_EQ(names(), Names{longest});
+    EXPECT_GNOMON_ERROR(io::write_file(folder / (longest + "n"), "x"), ErrorKind::input, "shorter name");
+}
+
+TEST_F(AtomicFileTest, FullDiskIsAnErrorAndLeavesNothing) {
+    put_content(folder / "a.txt", "old");
+    const FileSizeLimit limit(4096);
+    EXPECT_GNOMON_ERROR(io::write_file(folder / "a.txt", std::string(10000, 'x')), ErrorKind::input,
+                        (folder / "a.txt").string() + "; raise the limit");
+    EXPECT_EQ(content_of(folder / "a.txt"), "old");
+    EXPECT_EQ(names(), Names{"a.txt"});
+}
+
+TEST_F(AtomicFileTest, CommitRemembersAFailedWriteThatACallerSwallowed) {
+    AtomicFile file(folder / "a.txt");
+    {
+        const FileSizeLimit limit(16);
+        EXPECT_THROW(file.write(bytes_of(std::string(100, 'x'))), Error);
+    }
+    file.seek(0);
+    file.write(bytes_of("fits"));
+    EXPECT_THROW(file.commit(), Error);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+}
+
+TEST_F(AtomicFileTest, CheckWritableSaysWhatIsWrongAndLeavesNothing) {
+    io::check_writable(folder / "a.txt");
+    EXPECT_EQ(names(), Names{});
+    std::filesystem::create_directory(folder / "sub");
+    put_content(folder / "file", "");
+    EXPECT_GNOMON_ERROR(io::check_writable(folder / "none" / "a.txt"), ErrorKind::input, "create the folder first");
+    EXPECT_GNOMON_ERROR(io::check_writable(folder / "file" / "a.txt"), ErrorKind::input, "create the folder first");
+    EXPECT_GNOMON_ERROR(io::check_writable(folder / "sub"), ErrorKind::input, "it is a folder");
+    EXPECT_GNOMON_ERROR(io::check_writable(""), ErrorKind::input, "name of the file is missing");
+    EXPECT_GNOMON_ERROR(io::check_writable("/dev/full"), ErrorKind::input, "it is a device or a pipe");
+    EXPECT_EQ(names(), (Names{"file", "sub"}));
+}
+
+TEST_F(AtomicFileTest, FolderWithoutWritePermissionIsAnError) {
+    if (geteuid() == 0) GTEST_SKIP() << "skipped: permissions do not bind root";
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_read | std::filesystem::perms::owner_exec);
+    EXPECT_GNOMON_ERROR(io::check_writable(folder / "a.txt"), ErrorKind::input, "name a folder that you may write to");
+    std::filesystem::permissions(folder, std::filesystem::perms::owner_all);
+}
+
+}  // namespace gnomon::test

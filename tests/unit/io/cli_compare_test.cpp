@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon compare` as its users see it.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command_runner.hpp"
+#include "io/exr.hpp"
+#include "test_folder.hpp"
+
+namespace gnomon::test {
+
+using nlohmann::json;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class CliCompareTest : public TestFolder {
+protected:
+    CliCompareTest() {
+        io::write_exr(folder / "a.exr", 2, 1, std::vector<Channel>{{"R", {1.0f, 2.0f}}, {"Z", {5.0f, 5.0f}}}, {});
+        io::write_exr(folder / "b.exr", 2, 1, std::vector<Channel>{{"R", {1.5f, 1.5f}}, {"Z", {5.0f, 5.0f}}}, {});
+        io::write_exr(folder / "only_r.exr", 2, 1, std::vector<Channel>{{"R", {1.0f, 2.0f}}}, {});
+        io::write_exr(folder / "only_z.exr", 2, 1, std::vector<Channel>{{"Z", {1.0f, 2.0f}}}, {});
+        io::write_exr(folder / "wide.exr", 3, 1, std::vector<Channel>{{"R", {1.0f, 2.0f, 3.0f}}}, {});
+    }
+
+    CommandResult compare(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "compare");
+        return run_gnomon(folder, arguments);
+    }
+};
+
+TEST_F(CliCompareTest, TableOnStdout) {
+    const CommandResult result = compare({"a.exr", "b.exr"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    EXPECT_EQ(result.out,
+              "channel         RMSE          max   PSNR dB relative MSE  not finite\n"
+              "R                0.5          0.5      9.54     0.110619           0\n"  // 20 log10(1.5 / 0.5); 0.25 / 2.26
+              "Z                  0            0       inf            0           0\n");
+}
+
+TEST_F(CliCompareTest, Thresholds) {
+    EXPECT_EQ(compare({"a.exr", "a.exr", "--threshold", "0"}).exit_code, 0);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold", "0.5"}).exit_code, 0);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=0.49"}).exit_code, 8);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=0.49", "--channels=Z"}).exit_code, 0);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=0.49", "--channels=Z,R"}).exit_code, 8);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=9.5", "--metric=psnr"}).exit_code, 0);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=9.6", "--metric=psnr"}).exit_code, 8);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=0.11", "--metric=relmse"}).exit_code, 8);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=0.12", "--metric=relmse"}).exit_code, 0);
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold=0.5", "--metric=max"}).exit_code, 0);
+}
+
+TEST_F(CliCompareTest, JsonOnStdoutIsNothingElse) {
+    const CommandResult result = compare({"a.exr", "b.exr", "--json=-", "--threshold=0.1"});
+    EXPECT_EQ(result.exit_code, 8);
+    const json document = json::parse(result.out);
+    EXPECT_EQ(document["schema"], "gnomon.compare");
+    EXPECT_EQ(document["over_threshold"], true);
+    EXPECT_EQ(document["channels"][0]["name"], "R");
+    EXPECT_EQ(document["channels"][0]["rmse"], 0.5);
+    EXPECT_EQ(document["channels"][1]["psnr"], nullptr);
+}
+
+TEST_F(CliCompareTest, DifferenceImages) {
+    EXPECT_EQ(compare({"a.exr", "b.exr", "--diff=d.exr", "--diff-png=d.png"}).exit_code, 0);
+    const io::ExrImage image = io::read_exr(folder / "d.exr");
+    ASSERT_NE(image.find("R"), nullptr);
+    EXPECT_THAT(image.find("R")->values, ElementsAre(-0.5f, 0.5f));
+    EXPECT_THAT(image.find("Z")->values, ElementsAre(0.0f, 0.0f));
+    EXPECT_EQ(content_of(folder / "d.png").substr(1, 3), "PNG");
+}
+
+TEST_F(CliCompareTest, DifferentSizesExitWith3) {
+    const CommandResult result = compare({"a.exr", "wide.exr"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("2x1 and 3x1"));
+}
+
+TEST_F(CliCompareTest, ChannelsOnOneSideAreNamed) {
+    for (const auto& [a, b] : {std::pair("a.exr", "only_r.exr"), std::pair("only_r.exr", "a.exr")}) {
+        const CommandResult result = compare({a, b});
+        EXPECT_EQ(result.exit_code, 0);
+        EXPECT_EQ(result.err, "gnomon: warning: channel Z is not compared: only_r.exr has none\n");
+    }
+    const CommandResult none = compare({"only_r.exr", "only_z.exr"});
+    EXPECT_EQ(none.exit_code, 3);
+    EXPECT_THAT(none.err, HasSubstr("no channel in common: R and Z"));
+    const CommandResult asked = compare({"a.exr", "only_r.exr", "--channels=R,Z"});
+    EXPECT_EQ(asked.exit_code, 3);
+    EXPECT_THAT(asked.err, HasSubstr("no channel Z, only_r.exr; it has R"));
+}
+
+TEST_F(CliCompareTest, NanIsReportedAndOverAnyThreshold) {
+    io::write_exr(folder / "nan.exr", 2, 1, std::vector<Channel>{{"R", {std::nanf(""), 2.0f}}}, {});
+    const CommandResult result = compare({"nan.exr", "only_r.exr", "--threshold=100"});
+    EXPECT_EQ(result.exit_code, 8);
+    EXPECT_THAT(result.err, HasSubstr("channel R has 1 values that are not finite"));
+}
+
+TEST_F(CliCompareTest, QuietLeavesErrorsOnly) {
+    EXPECT_EQ(compare({"a.exr", "only_r.exr", "--quiet"}).err, "");
+    EXPECT_THAT(compare({"a.exr", "none.exr", "--quiet"}).err, HasSubstr("gnomon: error: "));
+}
+
+}  // namespace gnomon::test

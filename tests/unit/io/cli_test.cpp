@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// The command as its users see it: help, usage errors, info, devices.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+
+#include <gnomon/version.hpp>
+#include <nlohmann/json.hpp>
+
+#include "command_runner.hpp"
+#include "test_folder.hpp"
+#include "tiny_scene.hpp"
+
+namespace gnomon::test {
+
+using nlohmann::json;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
+
+class CliTest : public TestFolder {
+protected:
+    CommandResult run(const std::vector<std::string>& arguments) { return run_gnomon(folder, arguments); }
+};
+
+/// One line: `gnomon: error: what, where; what to do`.
+MATCHER(IsOneError, "") {
+    return ::testing::ExplainMatchResult(MatchesRegex("gnomon: error: [^\n]+, [^\n]+; [^\n]+\n"), arg, result_listener);
+}
+
+TEST_F(CliTest, Version) {
+    const CommandResult result = run({"--version"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.out, "gnomon " GNOMON_VERSION "\n");
+    EXPECT_EQ(result.err, "");
+}
+
+TEST_F(CliTest, HelpGoesToStdout) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {"--help"}, {"render", "--help"}, {"info", "--help"}, {"devices", "--help"}, {"compare", "--help"}}) {
+        const CommandResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 0) << arguments[0];
+        EXPECT_THAT(result.out, HasSubstr("Usage: gnomon")) << arguments[0];
+        EXPECT_EQ(result.err, "") << arguments[0];
+    }
+    const std::string help = run({"render", "--help"}).out;
+    for (const char* option :
+         {"-o",           "--png",           "--exposure",  "--size",   "--spp",        "--seed",    "--shutter", "--frames",
+          "--fps",        "--shutter-angle", "--animation", "--camera", "--time-steps", "--method",  "--layout",  "--raster",
+          "--shadow-res", "--memory-budget", "--device",    "--json",   "--quiet",      "--verbose", "--ground",  "--validate"})
+        EXPECT_THAT(help, HasSubstr(option));
+}
+
+TEST_F(CliTest, UsageErrorsAreOneLineAndExitWith2) {
+    put_content(folder / "a.gltf", tiny_scene());
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{},
+                                               {"bogus"},
+                                               {"render"},
+                                               {"render", "a.gltf"},
+                                               {"render", "a.gltf", "-o"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--bogus"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--spp", "none"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--size=0x1"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--shutter=1:0"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--raster=magic"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--quiet", "--verbose"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--camera=none"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--animation=none_of_these"},
+                                               {"render", "a.gltf", "-o", "a.png"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--frames", "0-1"},
+                                               {"render", "a.gltf", "-o", "####.exr", "--frames", "0-1", "--shutter", "0:1"},
+                                               {"compare", "a.exr"},
+                                               {"compare", "a.exr", "b.exr", "--metric=ssim"},
+                                               {"compare", "a.exr", "b.exr", "--threshold=-1"},
+                                               {"compare", "a.exr", "b.exr", "--diff=d.png"}}) {
+        const CommandResult result = run(arguments);
+        SCOPED_TRACE(::testing::PrintToString(arguments));
+        EXPECT_EQ(result.exit_code, 2);
+        EXPECT_EQ(result.out, "");
+        EXPECT_THAT(result.err, IsOneError());
+    }
+    EXPECT_THAT(run({"bogus"}).err, HasSubstr("bogus"));
+    EXPECT_THAT(run({"render", "--bogus"}).err, HasSubstr("gnomon render --help"));
+    EXPECT_EQ(names(), std::set<std::string>{"a.gltf"});
+}
+
+TEST_F(CliTest, OutputsAreCheckedBeforeAnythingElse) {
+    for (const char* option : {"-o", "--png", "--json"}) {
+        std::vector<std::string> arguments = {"render", "missing.glb", "-o", "a.exr"};
+        const std::string ending = option == std::string("-o") ? ".exr" : "." + std::string(option + 2);
+        if (option == std::string("-o")) {
+            arguments[3] = "none/a.exr";
+        } else {
+            arguments.insert(arguments.end(), {option, "none/a" + ending});
+        }
+        const CommandResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 3) << option;
+        EXPECT_THAT(result.err, AllOf(IsOneError(), HasSubstr("none/a" + ending + "; create the folder"))) << option;
+    }
+}
+
+TEST_F(CliTest, MissingSceneExitsWith3) {
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"info", "none.glb"}, {"render", "none.glb", "-o", "a.exr"}}) {
+        const CommandResult result = run(arguments);
+        EXPECT_EQ(result.exit_code, 3);
+        EXPECT_EQ(result.out, "");
+        EXPECT_THAT(result.err, AllOf(IsOneError(), HasSubstr("none.glb")));
+    }
+    EXPECT_EQ(names(), std::set<std::string>{});
+}
+
+TEST_F(CliTest, ErrorsStayOnOneLineWhateverTheFileIsCalled) { EXPECT_THAT(run({"info", "two\nlines.glb"}).err, IsOneError()); }
+
+TEST_F(CliTest, InfoAsJson) {
+    put_content(folder / "a.gltf", tiny_scene());
+    for (const std::vector<std::string>& arguments :
+         std::vector<std::vector<std::string>>{{"info", "a.gltf", "--json", "-"}, {"info", "a.gltf", "--json=-"}}) {
+        const CommandResult result = run(arguments);
+        ASSERT_EQ(result.exit_code, 0) << result.err;
+        const json info = json::parse(result.out);
+        EXPECT_EQ(info["schema"], "gnomon.info");
+        EXPECT_EQ(info["schema_version"], 1);
+        EXPECT_EQ(info["triangles"], 1);
+        EXPECT_EQ(info["vertices"], 3);
+        EXPECT_EQ(info["nodes"], 1);
+        EXPECT_EQ(info["meshes"], 1);
+        EXPECT_EQ(info["bounds"]["lower"], json({0.0, 0.0, 0.0}));
+        EXPECT_EQ(info["bounds"]["upper"], json({1.0, 1.0, 0.0}));
+        EXPECT_EQ(info["cameras"], json::array());
+        EXPECT_EQ(info["lights"], json::array());
+    }
+}
+
+TEST_F(CliTest, InfoAsTextAndJsonFile) {
+    put_content(folder / "a.gltf", tiny_scene());
+    const CommandResult result = run({"info", "a.gltf", "--json", "a.json"});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("triangles        1\n"));
+    EXPECT_EQ(json::parse(content_of(folder / "a.json"))["triangles"], 1);
+}
+
+TEST_F(CliTest, ResultsThatCannotBeWrittenAreAnError) {
+    put_content(folder / "a.gltf", tiny_scene());
+    const CommandResult result =
+        run_gnomon(folder, {"info", "a.gltf"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, AllOf(IsOneError(), HasSubstr("standard output")));
+}
+
+TEST_F(CliTest, Devices) {
+    const CommandResult result = run({"devices", "--json=-"});
+    const json document = json::parse(result.out);
+    EXPECT_EQ(document["schema"], "gnomon.devices");
+    bool usable = false;
+    int chosen = 0;
+    for (const json& device : document["devices"]) {
+        EXPECT_EQ(device["usable"], device["missing"].empty());
+        usable = usable || device["usable"].get<bool>();
+        chosen += device["chosen"].get<bool>() ? 1 : 0;
+    }
+    EXPECT_EQ(chosen, usable ? 1 : 0);
+    EXPECT_EQ(result.exit_code, usable ? 0 : 4);
+    EXPECT_EQ(result.err.find("no usable Vulkan device") != std::string::npos, !usable);
+}
+
+}  // namespace gnomon::test

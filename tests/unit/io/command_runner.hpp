@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs the built command and keeps what it says.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace gnomon::test {
+
+struct CommandResult {
+    int exit_code = -1;  ///< 128 + the signal where one ended it.
+    std::string out;
+    std::string err;
+};
+
+/// Run `gnomon` with these arguments in a folder, stdout and stderr going to files. `prepare` runs in the child before the
+/// command does; `while_running` here, with the child's process id.
+CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                         const std::function<void()>& prepare = {}, const std::function<void(int)>& while_running = {});
+
+}  // namespace gnomon::test

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The JSON documents and the attributes of an EXR header.
+#include "io/report.hpp"
+
+#include <gmock/gmock.h>
+
+#include <gnomon/version.hpp>
+#include <limits>
+
+namespace gnomon::test {
+
+using io::Json;
+
+TEST(Report, RenderDocument) {
+    FrameStats stats;
+    stats.stages = {{"setup", 0.5, 2}, {"bin", 0.25, 1}};
+    stats.buffer_bytes = {{"prisms", 4096}};
+    stats.peak_bytes = 1ull << 40;
+    stats.counts = {{"ranges", 123}};
+    stats.wall_seconds = 1.5;
+    stats.device = "llvmpipe";
+    const Json json = io::render_json(stats, {{"spp", 16}}, {"a.exr", "a.png"}, {"no camera"});
+    EXPECT_EQ(json, Json::parse(R"({
+        "schema": "gnomon.render", "schema_version": 1, "version": ")" GNOMON_VERSION R"(", "device": "llvmpipe",
+        "settings": {"spp": 16},
+        "stages": [{"name": "setup", "seconds": 0.5, "dispatches": 2}, {"name": "bin", "seconds": 0.25, "dispatches": 1}],
+        "buffers": {"prisms": 4096}, "peak_bytes": 1099511627776, "counts": {"ranges": 123}, "wall_seconds": 1.5,
+        "outputs": ["a.exr", "a.png"], "warnings": ["no camera"]})"));
+}
+
+TEST(Report, NothingMeansEmptyListsAndObjects) {
+    const Json json = io::render_json({}, Json::object(), {}, {});
+    EXPECT_TRUE(json["stages"].is_array());
+    EXPECT_TRUE(json["buffers"].is_object());
+    EXPECT_TRUE(json["counts"].is_object());
+    EXPECT_TRUE(json["outputs"].is_array());
+    EXPECT_TRUE(json["warnings"].is_array());
+}
+
+TEST(Report, EverySettingIsThere) {
+    RenderSettings settings{.width = 1,
+                            .height = 2,
+                            .spp = 3,
+                            .seed = 4,
+                            .camera = 5,
+                            .shadow_res = 6,
+                            .method = "m",
+                            .layout = "l",
+                            .raster = "r",
+                            .memory_budget = 7,
+                            .keep_samples = true};
+    EXPECT_EQ(io::settings_json(settings), Json::parse(R"({"width": 1, "height": 2, "spp": 3, "seed": 4, "camera": 5,
+        "shadow_res": 6, "method": "m", "layout": "l", "raster": "r", "memory_budget": 7})"));
+}
+
+TEST(Report, AttributesAreText) {
+    const auto attributes = io::exr_attributes({{"spp", 16}, {"method", "exact"}, {"shutter_close", 0.0208333}, {"on", true}});
+    const std::map<std::string, std::string> expected = {
+        {"gnomon:spp", "16"}, {"gnomon:method", "exact"}, {"gnomon:shutter_close", "0.0208333"}, {"gnomon:on", "true"}};
+    EXPECT_EQ(attributes, expected);
+}
+
+TEST(Report, TextIsAlwaysValidJson) {
+    const std::string text = io::to_text({{"name", "a\xff\n"}, {"psnr", std::numeric_limits<double>::infinity()}}, -1);
+    EXPECT_EQ(text, "{\"name\":\"a\xef\xbf\xbd\\n\",\"psnr\":null}");
+}
+
+}  // namespace gnomon::test

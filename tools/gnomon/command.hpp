@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the subcommands share: how they are registered, what they return, where their results go.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "io/report.hpp"
+
+namespace gnomon::cli {
+
+/// Exit codes that are not those of an ErrorKind.
+enum ExitCode : int { kDone = 0, kLostEntries = 7, kOverThreshold = 8, kInterrupted = 130 };
+
+/// What the command line asks for: filled while it is parsed, run after.
+struct Invocation {
+    std::function<int()> run;  ///< Returns the exit code.
+    bool quiet = false;
+    bool verbose = false;
+};
+
+/// A subcommand with the options that all have.
+CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& name, const std::string& description);
+
+/// Warn where an option was given that has no effect without another one.
+void warn_if_unused(const CLI::App& command, const std::string& option, const std::string& needed);
+
+void add_render(CLI::App& app, Invocation& invocation);
+void add_info(CLI::App& app, Invocation& invocation);
+void add_devices(CLI::App& app, Invocation& invocation);
+void add_compare(CLI::App& app, Invocation& invocation);
+
+/// Messages go to stderr as `gnomon: LEVEL: TEXT`, in colour on a terminal unless NO_COLOR is set.
+void start_log();
+
+/// Write a document to a file, or, for "-", to stdout; indent -1: on one line.
+void write_json(const std::string& target, const io::Json& json, int indent = 2);
+
+/// A label and a value, one line of a table for people.
+void print_row(const std::string& label, const std::string& value);
+
+}  // namespace gnomon::cli

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon devices`: the Vulkan devices of this machine, and which one would be used.
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <gnomon/error.hpp>
+#include <gnomon/render.hpp>
+#include <iostream>
+#include <memory>
+
+#include "command.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+/// The document "gnomon.devices".
+io::Json devices_json(const std::vector<DeviceDescription>& devices) {
+    io::Json json = io::document("devices");
+    json["devices"] = io::Json::array();
+    for (const DeviceDescription& device : devices)
+        json["devices"].push_back({{"index", device.index},
+                                   {"name", device.name},
+                                   {"type", device.type},
+                                   {"driver", device.driver},
+                                   {"heap_bytes", device.heap_bytes},
+                                   {"missing", device.missing},
+                                   {"usable", device.missing.empty()},
+                                   {"chosen", device.chosen}});
+    return json;
+}
+
+void print_devices(const std::vector<DeviceDescription>& devices) {
+    for (const DeviceDescription& device : devices) {
+        const double gibibytes = static_cast<double>(device.heap_bytes) / (1024.0 * 1024.0 * 1024.0);
+        std::cout << fmt::format("{} {:>2}  {}  ({}, {:.1f} GiB)  {}\n", device.chosen ? '*' : ' ', device.index, device.name,
+                                 device.type, gibibytes, device.driver);
+        if (!device.missing.empty()) std::cout << fmt::format("      not usable: lacks {}\n", fmt::join(device.missing, ", "));
+    }
+    if (std::any_of(devices.begin(), devices.end(), [](const DeviceDescription& device) { return device.chosen; }))
+        std::cout << "* would be used\n";
+}
+
+}  // namespace
+
+void add_devices(CLI::App& app, Invocation& invocation) {
+    CLI::App* command = add_command(app, invocation, "devices", "List the Vulkan devices, and which one would be used");
+    auto json = std::make_shared<std::string>();
+    command->add_option("--json", *json, "Write it as JSON; - for stdout, instead of the text")->type_name("FILE.json");
+    command->callback([&invocation, json] {
+        invocation.run = [json] {
+            const std::vector<DeviceDescription> devices = list_devices();
+            if (!json->empty()) write_json(*json, devices_json(devices));
+            if (*json != "-") print_devices(devices);
+            if (std::none_of(devices.begin(), devices.end(), [](const DeviceDescription& d) { return d.missing.empty(); }))
+                throw Error(ErrorKind::no_device, "no usable Vulkan device", fmt::format("{} found", devices.size()),
+                            "install a Vulkan 1.3 driver, such as Mesa's lavapipe for the CPU");
+            return static_cast<int>(kDone);
+        };
+    });
+}
+
+}  // namespace gnomon::cli

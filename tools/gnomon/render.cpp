@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon render`: a frame, or a sequence of frames, from a scene.
+#include <spdlog/spdlog.h>
+
+#include <atomic>
+#include <csignal>
+#include <gnomon/error.hpp>
+#include <gnomon/render.hpp>
+#include <memory>
+
+#include "additions.hpp"
+#include "command.hpp"
+#include "io/atomic_file.hpp"
+#include "io/exr.hpp"
+#include "io/png.hpp"
+#include "progress.hpp"
+#include "render_options.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "written by a signal handler");
+
+/// The first SIGINT or SIGTERM asks the frame to stop; the second one ends the process.
+void catch_interrupts() {
+    struct sigaction action {};
+    action.sa_handler = [](int) { interrupted = true; };
+    action.sa_flags = static_cast<int>(SA_RESETHAND);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+}
+
+void check_outputs(const std::vector<FrameJob>& frames) {
+    for (const FrameJob& frame : frames) {
+        io::check_writable(frame.exr);
+        if (frame.png) io::check_writable(*frame.png);
+        if (!frame.json.empty() && frame.json != "-") io::check_writable(frame.json);
+    }
+}
+
+void log_warnings(const std::vector<std::string>& warnings, size_t first) {
+    for (size_t i = first; i < warnings.size(); ++i) spdlog::warn("{}", warnings[i]);
+}
+
+void log_device(const DeviceDescription& device, bool was_named) {
+    if (device.type == "cpu" && !was_named) {
+        spdlog::warn("no hardware device: rendering on the CPU, with {}", device.name);
+    } else {
+        spdlog::debug("device: {} ({}), {}", device.name, device.type, device.driver);
+    }
+}
+
+void log_statistics(const FrameStats& stats) {
+    for (const auto& stage : stats.stages)
+        spdlog::debug("{:<24} {:10.6f} s in {} dispatches", stage.name, stage.seconds, stage.dispatches);
+    for (const auto& [name, count] : stats.counts) spdlog::debug("{:<24} {:10}", name, count);
+    spdlog::debug("{:<24} {:10} bytes", "peak device memory", stats.peak_bytes);
+}
+
+void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions& options, const io::Json& settings,
+                   const std::vector<std::string>& warnings) {
+    std::vector<std::string> outputs = {job.exr.string()};
+    io::write_exr(job.exr, frame.width, frame.height, frame.channels, io::exr_attributes(settings));
+    if (job.png) {
+        io::write_png(*job.png, frame.width, frame.height, io::tone_map(frame.channels, options.exposure));
+        outputs.push_back(job.png->string());
+    }
+    if (!job.json.empty()) {
+        const io::Json json = io::render_json(frame.stats, settings, outputs, warnings);
+        const bool one_of_several = job.json == "-" && job.number;  // Then each is on a line of its own.
+        write_json(job.json, json, one_of_several ? -1 : 2);
+    }
+    spdlog::info("wrote {}; rendered in {:.2f} s", fmt::join(outputs, ", "), frame.stats.wall_seconds);
+}
+
+int render(const RenderOptions& options, bool quiet) {
+    catch_interrupts();
+    const std::vector<FrameJob> jobs = frame_jobs(options);
+    check_outputs(jobs);
+
+    const Scene scene = load_scene(options.scene);
+    log_warnings(scene.warnings, 0);
+    const AnimationChoice animation = choose_animation(scene, options.animation);
+    RenderSettings settings = options.settings;
+    if (!options.camera.empty()) settings.camera = choose_camera(scene, options.camera);
+    const Additions additions(scene, animation, options, jobs);
+
+    Renderer renderer(options.device, options.validate);
+    log_device(renderer.device(), !options.device.empty());
+
+    const double frame_samples = static_cast<double>(settings.width) * settings.height * settings.spp;
+    const auto frame_count = static_cast<double>(jobs.size());
+    ProgressBar bar(frame_samples * frame_count, quiet);
+    int exit_code = kDone;
+    for (size_t i = 0; i < jobs.size(); ++i) {
+        const FrameJob& job = jobs[i];
+        std::vector<Pose> poses = pose_scene(scene, animation, job.shutter.open, job.shutter.close, options.time_steps);
+        Scene extended;
+        if (!additions.empty()) {
+            extended = scene;
+            additions.apply(extended, poses);
+        }
+        const Scene& drawn = additions.empty() ? scene : extended;
+        if (i == 0) log_warnings(drawn.warnings, scene.warnings.size());
+
+        const Frame frame = renderer.render(drawn, poses, settings, [&](double share) {
+            bar.update((static_cast<double>(i) + share) / frame_count);
+            return !interrupted;
+        });
+        bar.erase();
+        if (interrupted) {
+            spdlog::error("interrupted, before {} was written; run it again", job.exr.string());
+            return kInterrupted;
+        }
+
+        write_outputs(frame, job, options,
+                      frame_settings(options, settings, job, drawn.cameras[settings.camera].name, renderer.device().name),
+                      drawn.warnings);
+        log_statistics(frame.stats);
+        if (const auto lost = frame.stats.counts.find("lost_entries"); lost != frame.stats.counts.end() && lost->second > 0) {
+            spdlog::warn("the layout {} lost {} entries: it has a fixed capacity", settings.layout, lost->second);
+            exit_code = kLostEntries;
+        }
+    }
+    return exit_code;
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Invocation& invocation) {
+    CLI::App* command = add_command(app, invocation, "render", "Render a frame or a sequence");
+    auto options = std::make_shared<RenderOptions>();
+    bind_render_options(*command, *options);
+    command->callback([&invocation, command, options] {
+        invocation.run = [&invocation, command, options] {
+            warn_if_unused(*command, "--exposure", "--png");
+            warn_if_unused(*command, "--fps", "--frames");
+            warn_if_unused(*command, "--shutter-angle", "--frames");
+            return render(*options, invocation.quiet);
+        };
+    });
+}
+
+}  // namespace gnomon::cli

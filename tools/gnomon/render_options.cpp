@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options of `gnomon render`, and the frames that they ask for.
+#include "render_options.hpp"
+
+#include <gnomon/version.hpp>
+#include <limits>
+
+namespace gnomon::cli {
+
+namespace {
+
+/// An option whose text goes through a parser of options.hpp.
+template <class Parse>
+CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::string& type, const std::string& default_text,
+                        const std::string& description, Parse parse) {
+    CLI::Option* option = command.add_option_function<std::string>(
+        name, [name, parse](const std::string& text) { parse(text, name); }, description);
+    option->type_name(type);
+    if (!default_text.empty()) option->default_str(default_text);
+    return option;
+}
+
+}  // namespace
+
+void bind_render_options(CLI::App& command, RenderOptions& options) {
+    RenderOptions& o = options;
+    const std::string output = "Output", time = "Time", picture = "Picture", machine = "Machine";
+    using Text = const std::string&;
+
+    command.add_option("SCENE", o.scene, "Scene, .gltf or .glb")->required()->type_name("");
+    command.add_option("-o,--output", o.exr, "Image; for sequences its name has ####")
+        ->required()
+        ->type_name("FILE.exr")
+        ->group(output);
+    command.add_option("--png", o.png, "The same picture, sRGB 8 bit")->type_name("FILE.png")->group(output);
+    add_parsed(command, "--exposure", "EV", "0", "The PNG is brighter by 2^EV", [&o](Text text, Text name) {
+        o.exposure = parse_number(text, name, -100.0, 100.0);
+    })->group(output);
+    command.add_option("--json", o.json, "Settings, times, memory and counts; - for stdout")
+        ->type_name("FILE.json")
+        ->group(output);
+
+    add_parsed(command, "--size", "WxH", "1280x720", "Pixels", [&o](Text text, Text name) {
+        const Size size = parse_size(text, name);
+        o.settings.width = size.width;
+        o.settings.height = size.height;
+    })->group(picture);
+    add_parsed(command, "--spp", "N", "16", "Samples per pixel", [&o](Text text, Text name) {
+        o.settings.spp = parse_count(text, name, 1, 65536);
+    })->group(picture);
+    add_parsed(command, "--seed", "S", "0", "Same seed, same bits, on the same device", [&o](Text text, Text name) {
+        o.settings.seed = parse_count(text, name, 0, std::numeric_limits<uint32_t>::max());
+    })->group(picture);
+    command.add_option("--camera", o.camera, "Which camera; without any, one that frames the scene [0]")
+        ->type_name("NAME|INDEX")
+        ->group(picture);
+    add_parsed(command, "--ground", "auto|Y", "", "Add a ground: below the scene, or at height Y in metres",
+               [&o](Text text, Text name) { o.ground = GroundOption{parse_ground(text, name)}; })
+        ->group(picture);
+    command.add_option("--method", o.settings.method, "How shadows are found")
+        ->type_name("NAME")
+        ->capture_default_str()
+        ->group(picture);
+    command.add_option("--layout", o.settings.layout, "S-buffer layout")
+        ->type_name("NAME|FOLDER")
+        ->capture_default_str()
+        ->group(picture);
+    command.add_option("--raster", o.settings.raster, "How ranges are found: analytic, conservative, prism; auto is by method")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"auto", "analytic", "conservative", "prism"}).description(""))
+        ->capture_default_str()
+        ->group(picture);
+    add_parsed(command, "--shadow-res", "N", "1024", "Texels along a light view's side", [&o](Text text, Text name) {
+        o.settings.shadow_res = parse_count(text, name, 1, 16384);
+    })->group(picture);
+
+    CLI::Option* shutter = add_parsed(command, "--shutter", "OPEN:CLOSE", "0:0.0208333", "Seconds on the animation clock",
+                                      [&o](Text text, Text name) { o.shutter = parse_shutter(text, name); })
+                               ->group(time);
+    add_parsed(command, "--frames", "A-B", "", "A sequence: frame n opens at n/F for (D/360)/F seconds",
+               [&o](Text text, Text name) { o.frames = parse_frames(text, name); })
+        ->excludes(shutter)
+        ->group(time);
+    add_parsed(command, "--fps", "F", "24", "Frames per second of a sequence", [&o](Text text, Text name) {
+        o.fps = parse_number(text, name, 1e-6, 1e6);
+    })->group(time);
+    add_parsed(command, "--shutter-angle", "D", "180", "Degrees, 0 to 360, of a sequence", [&o](Text text, Text name) {
+        o.shutter_angle = parse_number(text, name, 0.0, 360.0);
+    })->group(time);
+    command.add_option("--animation", o.animation, "Which animation drives the scene")
+        ->type_name("NAME|INDEX|all|none")
+        ->capture_default_str()
+        ->group(time);
+    add_parsed(command, "--time-steps", "K", "1", "Linear segments of motion between K+1 exact poses",
+               [&o](Text text, Text name) { o.time_steps = parse_count(text, name, 1, 65535); })
+        ->group(time);
+
+    command.add_option("--device", o.device, "Which Vulkan device [the first hardware device, else a CPU]")
+        ->type_name("NAME|INDEX")
+        ->group(machine);
+    add_parsed(command, "--memory-budget", "SIZE", "", "Most device memory, as in 512M or 1.5GiB [half the device's heap]",
+               [&o](Text text, Text name) { o.settings.memory_budget = parse_bytes(text, name); })
+        ->group(machine);
+    command.add_flag("--validate", o.validate, "Run under the Vulkan validation layer; its messages are errors")
+        ->group(machine);
+}
+
+std::vector<FrameJob> frame_jobs(const RenderOptions& options) {
+    const bool writes_json = !options.json.empty() && options.json != "-";
+    check_ending(options.exr, ".exr", "-o");
+    if (!options.png.empty()) check_ending(options.png, ".png", "--png");
+    if (writes_json) check_ending(options.json, ".json", "--json");
+
+    if (!options.frames) {
+        FrameJob still{{}, options.shutter, options.exr, {}, options.json};
+        if (!options.png.empty()) still.png = options.png;
+        return {still};
+    }
+    std::vector<FrameJob> frames;
+    for (uint64_t number = options.frames->first; number <= options.frames->last; ++number) {
+        const auto n = static_cast<uint32_t>(number);
+        FrameJob frame{n, {}, numbered_path(options.exr, n, "-o"), {}, options.json};
+        frame.shutter = {n / options.fps, (n + options.shutter_angle / 360.0) / options.fps};
+        if (!options.png.empty()) frame.png = numbered_path(options.png, n, "--png");
+        if (writes_json) frame.json = numbered_path(options.json, n, "--json").string();
+        frames.push_back(frame);
+    }
+    return frames;
+}
+
+io::Json frame_settings(const RenderOptions& options, const RenderSettings& effective, const FrameJob& frame,
+                        const std::string& camera_name, const std::string& device) {
+    io::Json settings = io::settings_json(effective);
+    settings["camera_name"] = camera_name;
+    settings["scene"] = std::filesystem::path(options.scene).filename().string();
+    settings["animation"] = options.animation;
+    settings["shutter_open"] = frame.shutter.open;
+    settings["shutter_close"] = frame.shutter.close;
+    settings["time_steps"] = options.time_steps;
+    if (frame.number) {
+        settings["frame"] = *frame.number;
+        settings["fps"] = options.fps;
+        settings["shutter_angle"] = options.shutter_angle;
+    }
+    if (options.ground) settings["ground"] = options.ground->height ? io::Json(*options.ground->height) : io::Json("auto");
+    if (frame.png) settings["exposure"] = options.exposure;
+    settings["device"] = device;
+    settings["version"] = GNOMON_VERSION;
+    return settings;
+}
+
+}  // namespace gnomon::cli

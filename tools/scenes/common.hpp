@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What several scenes share.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gltf_writer.hpp"
+#include "mesh.hpp"
+
+namespace gnomon::makers {
+
+/// Throws ErrorKind::usage unless low <= value <= high.
+void require_range(const std::string& option, double value, double low, double high);
+
+/// sRGB bytes to the linear values that glTF wants.
+Rgb from_srgb(int r, int g, int b);
+Rgba bytes_of(Rgb color);
+
+/// count + 1 equally spaced times from 0 to end.
+std::vector<double> key_times(double end, uint32_t count);
+
+/// A still horizontal square at height y about (0, 0), two triangles.
+void add_ground(GltfWriter& writer, double half_size, double y, Rgb color);
+
+}  // namespace gnomon::makers

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The walking figure: skeleton, body and motion. It faces +X, its right side is at +Z, and it stands on y = 0.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "mesh.hpp"
+
+namespace gnomon::makers {
+
+/// Parents come before their children. Right follows left by kSide.
+enum Joint : uint16_t {
+    pelvis,
+    spine,
+    chest,
+    neck,
+    head,
+    left_clavicle,
+    left_upper_arm,
+    left_forearm,
+    left_hand,
+    left_thigh,
+    left_shin,
+    left_foot,
+    left_toes,
+    right_clavicle,
+    right_upper_arm,
+    right_forearm,
+    right_hand,
+    right_thigh,
+    right_shin,
+    right_foot,
+    right_toes,
+    kFigureJoints
+};
+inline constexpr uint16_t kSide = right_clavicle - left_clavicle;
+
+struct JointInfo {
+    const char* name;
+    int parent;     ///< A Joint, or -1.
+    Vec3 position;  ///< In the bind pose, in which no joint is rotated.
+};
+const std::array<JointInfo, kFigureJoints>& figure_skeleton();
+
+/// The angle from the vertical at which the arms hang in the bind pose.
+inline constexpr double kArmAngle = 0.26;
+
+/// Closed tubes with vertex colours, bound to the skeleton, about `triangles` in all.
+Mesh figure_body(uint32_t triangles);
+
+/// One posture: where the pelvis is, and how every joint is rotated relative to its parent.
+struct Posture {
+    Vec3 pelvis_position;
+    std::array<Quat, kFigureJoints> rotations;
+};
+
+/// World positions of the vertices of `body` from `first` (an index, to pose a part only).
+std::vector<Vec3> posed_vertices(const Mesh& body, const Posture& posture, const std::vector<uint32_t>& vertices);
+
+/// A walk of one cycle in one second along +X.
+struct Walk {
+    std::vector<double> seconds;  ///< Of `postures`.
+    std::vector<Posture> postures;
+    std::vector<double> pelvis_seconds;  ///< More of them, so that the feet stay on the ground between the postures too.
+    std::vector<Vec3> pelvis_positions;
+};
+Walk figure_walk(const Mesh& body);
+
+}  // namespace gnomon::makers

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scenes for tests, benchmarks and pictures, written as glTF 2.0 with a camera, lights and one animation that starts at 0 s.
+// The same options give the same bytes. Units are metres, seconds and radians; "shutter" is 0 s to kShutterSeconds.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+
+namespace gnomon::makers {
+
+/// The shutter that gnomon renders by default.
+inline constexpr double kShutterSeconds = 1.0 / 48.0;
+
+/// A skinned figure walks through a studio with a spinning pinwheel and a bouncing ball. Light 0 is the key light
+/// (directional), light 1 a weak fill light. The walk is one cycle of one second, and its lowest vertex is always on the
+/// ground, y = 0.
+struct FigureOptions {
+    uint32_t triangles = 12000;  ///< Of the whole scene, within 10 %; 2,000 to 1,000,000.
+    bool fill_light = true;
+};
+void make_figure(const std::filesystem::path& path, const FigureOptions& options = {});
+
+/// Two instances of a tessellated unit cube fly toward a directional light above them, four fifths of their side in a shutter.
+struct TwoCubesOptions {
+    uint32_t triangles = 6000;  ///< Of each cube, to the nearest 12 n^2; 12 to 1,000,000.
+};
+void make_two_cubes(const std::filesystem::path& path, const TwoCubesOptions& options = {});
+
+/// Cubes that move and turn in random directions, all in one skinned mesh with a joint per cube. The space that they fill grows
+/// with their number, size and speed, so that they cover about the same share of the picture.
+struct RandomCubesOptions {
+    uint32_t count = 2000;  ///< 1 to 65,535.
+    uint32_t seed = 0;
+    double size = 1.0;       ///< Side, > 0.
+    double speed_min = 4.0;  ///< Metres in a shutter, 0 <= speed_min <= speed_max.
+    double speed_max = 8.0;
+};
+void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptions& options = {});
+
+/// A grid of pillars below a spot light that circles over them as it climbs.
+struct PillarsOptions {
+    uint32_t columns = 7;  ///< Along x and z, 1 to 100.
+};
+void make_pillars(const std::filesystem::path& path, const PillarsOptions& options = {});
+
+/// A skinned tube that fills most of the picture, rises and bends.
+struct TubeOptions {
+    uint32_t triangles = 70000;  ///< Of the tube, within 5 %; 1,000 to 2,000,000.
+    double pixels = 10.0;        ///< How far it moves in a shutter, on average, in a picture of 1024x768; 0 to 200.
+};
+void make_tube(const std::filesystem::path& path, const TubeOptions& options = {});
+
+/// The small instances that the scenes folder holds, as figure.gltf, two-cubes.gltf and so on.
+void make_all(const std::filesystem::path& folder);
+
+/// Errors of all makers: ErrorKind::usage for an option out of its range or a name that does not end in .gltf or .glb,
+/// ErrorKind::input if a file cannot be written.
+
+}  // namespace gnomon::makers
