@@ -82,6 +82,7 @@ ExrImage read_part(Imf::MultiPartInputFile& file, const std::filesystem::path& p
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
             image.attributes[attribute.name()] = text->value();
+    image.attributes.erase("type");  // OpenEXR's own, and added by it where the file has none.
     return image;
 }
 

@@ -16,7 +16,7 @@ struct ExrImage {
     uint32_t width = 0;
     uint32_t height = 0;
     std::vector<Channel> channels;                  ///< In the file's order, which is alphabetical.
-    std::map<std::string, std::string> attributes;  ///< The text attributes of the header.
+    std::map<std::string, std::string> attributes;  ///< The text attributes of the header but "type".
 
     /// The channel of this name, or null.
     const Channel* find(const std::string& name) const;

@@ -150,7 +150,7 @@ void check_camera(const Cursor& camera) {
         const Cursor p = camera.get("perspective");
         const double yfov = p.get("yfov").number();
         const double znear = p.get("znear").number();
-        require(yfov > 0.0 && yfov < std::numbers::pi, "yfov must be between 0 and pi");
+        require(yfov > 0.0, "yfov must be above 0");
         require(p.number_or("aspectRatio", 1.0) > 0.0, "aspectRatio must be above 0");
         require(znear > 0.0, "znear must be above 0");
         require(p.number_or("zfar", 2.0 * znear) > znear, "zfar must be above znear");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scene/gltf_accessor.hpp"
+#include "scene/gltf_check.hpp"
 
 namespace gnomon::gltf {
 
@@ -48,13 +49,16 @@ public:
     // The numbers of the vertices, in the order of the primitive's mode; all in range.
     std::vector<uint32_t> read_indices() const {
         std::vector<uint32_t> indices;
+        uint32_t restart = kUnused;
         if (from_.indices >= 0) {
+            restart >>= 32 - 8 * component_bytes(static_cast<uint32_t>(accessor(from_.indices).componentType));
             indices = read_unsigned(document_, from_.indices);
         } else {
             indices.resize(vertex_count());
             for (size_t i = 0; i < indices.size(); ++i) indices[i] = static_cast<uint32_t>(i);
         }
         for (const uint32_t index : indices) {
+            if (index == restart) fail("vertex index " + std::to_string(index) + " is the reserved primitive restart value");
             if (index >= vertex_count()) {
                 fail("vertex index " + std::to_string(index) + " is out of range: there are " + std::to_string(vertex_count()) +
                      " vertices");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/type_ptr.hpp>
+#include <gnomon/error.hpp>
+#include <numbers>
 
 #include "scene/gltf_build.hpp"
 
@@ -103,6 +105,10 @@ void build_cameras(const Document& document, const std::vector<bool>& shown, Sce
             }
         } else {
             const tinygltf::PerspectiveCamera& p = from.perspective;
+            if (!(p.yfov < std::numbers::pi)) {
+                throw Error(ErrorKind::input, "the camera of " + node_label(model, n) + " has an angle of 180 degrees or more",
+                            "in " + document.name, "make its yfov less than pi");
+            }
             camera.yfov = p.yfov;
             camera.aspect = p.aspectRatio;
             camera.znear = p.znear;

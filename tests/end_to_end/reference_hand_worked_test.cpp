@@ -152,12 +152,19 @@ TEST_P(HandWorked, MovingSpotIsWhereItIsAtTheSamplesTime) {
 }
 
 TEST_P(HandWorked, TriangleDoesNotOccludeItself) {
-    MovingTriangles triangles(1);
-    // At coordinates where float steps are coarse, with light that grazes.
-    triangles.add(plane(100.0f, 300.0f), {0.3f, 0.1f, 0.7f});
-    add_camera(triangles, {100.0, 0.0, 302.0});
-    triangles.add(Light{}, {{{}, glm::angleAxis(1.57, glm::dvec3(0.0, 1.0, 0.0))}});
-    expect_all(triangles, no_border, [](const Sample& s) { return s.record.triangle == 0 && s.record.lit == 1; });
+    // Light that grazes at coordinates where float steps are coarse; and corners so far from the hits that rounding is more
+    // than the tolerance at the hits.
+    Corners steep = plane(0.0f, 0.0f);
+    steep[2].z = 81.7f;
+    steep[0].z = steep[1].z = -40.85f;
+    for (const auto& [corners, eye] :
+         {std::pair(plane(100.0f, 300.0f), glm::dvec3(100.0, 0.0, 302.0)), std::pair(steep, glm::dvec3(0.0, 0.0, 2.0))}) {
+        MovingTriangles triangles(1);
+        triangles.add(corners, {0.3f, 0.1f, 0.7f});
+        add_camera(triangles, eye);
+        triangles.add(Light{}, {{{}, glm::angleAxis(1.57, glm::dvec3(0.0, 1.0, 0.0))}});
+        expect_all(triangles, no_border, [](const Sample& s) { return s.record.triangle == 0 && s.record.lit == 1; });
+    }
 }
 
 TEST_P(HandWorked, CoincidentTriangleDoesNotOcclude) {
@@ -176,7 +183,8 @@ TEST_P(HandWorked, OccludersCountFromTheToleranceOn) {
         triangles.add(plane(8.0f, 0.0f));
         triangles.add(plane(8.0f, height));
         add_camera(triangles, {8.0, 0.0, -1.0}, true);
-        triangles.add(Light{}, {{{}, kUpright}});
+        // Along the light the distance is twice the height.
+        triangles.add(Light{}, {{{}, glm::angleAxis(std::numbers::pi / 3, glm::dvec3(0.0, 1.0, 0.0))}});
         expect_all(triangles, no_border,
                    [lit = lit](const Sample& s) { return s.record.triangle == 0 && s.record.lit == lit; });
     }

@@ -41,7 +41,10 @@ constexpr uint32_t kSegments = 3;
 
 std::vector<Rigid> wandering(Random& random, const Rigid& from, double step) {
     std::vector<Rigid> keys{from};
-    for (uint32_t k = 0; k < kSegments; ++k) keys.push_back(random.near(keys.back(), step));
+    for (uint32_t k = 0; k < kSegments; ++k) {
+        keys.push_back(random.near(keys.back(), step));
+        keys.back().rotation *= -1.0;  // The same rotation, but the longer way round in numbers.
+    }
     return keys;
 }
 
