@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A prism within one cell of time. Needs common/triangle.glsl.
 
-// Vertices at the cell's start (a) and end (b).
-struct CellTriangle {
-    vec4 a0, a1, a2;
-    vec4 b0, b1, b2;
-};
+#include "math/texel_range.h"
 
 uint segment_of_cell(ViewGrid grid, uint cell) { return cell / (grid.cell_count / grid.segment_count); }
 
@@ -18,14 +14,7 @@ vec2 cell_span(ViewGrid grid, uint cell) {
 
 CellTriangle fetch_cell_triangle(ViewGrid grid, uint entry, uint key_first, vec2 span) {
     MovingTriangle m = fetch_moving_triangle(entry, key_first, grid.vertex_stride);
-    CellTriangle c;
-    c.a0 = vertex_at(m.a0, m.d0, span.x);
-    c.a1 = vertex_at(m.a1, m.d1, span.x);
-    c.a2 = vertex_at(m.a2, m.d2, span.x);
-    c.b0 = vertex_at(m.a0, m.d0, span.y);
-    c.b1 = vertex_at(m.a1, m.d1, span.y);
-    c.b2 = vertex_at(m.a2, m.d2, span.y);
-    return c;
+    return cell_triangle(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, span.x, span.y);
 }
 
 // The largest absolute raster coordinate of a view's image.

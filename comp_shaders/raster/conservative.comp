@@ -5,10 +5,10 @@
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
 // Writes:  RangeCounts (64 bits per kCountBlock items), and what the layout says
 // Grid:    8 invocations per tile and cell: one per column of texels, its 8 rows in registers
-// Source:  math/range.h
+// Source:  math/texel_range.h
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
-#include "math/orientation.h"
+#include "math/texel_range.h"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
@@ -29,16 +29,6 @@ uint range_base() { return params.range_first; }
 #include "layout.glsl"
 
 const float kReach = 0.5 * float(kTileSize);
-
-// A lower bound of the triangle's depth during the cell.
-float nearest_depth(CellTriangle c) {
-    if (kOrthographic) {
-        float z = min(min_of(c.a0.z, c.a1.z, c.a2.z), min_of(c.b0.z, c.b1.z, c.b2.z));
-        return z - abs(z) * (4.0 / 16777216.0);
-    }
-    float w = min(min_of(c.a0.w, c.a1.w, c.a2.w), min_of(c.b0.w, c.b1.w, c.b2.w));
-    return w > 0.0 ? -(1.0 + 8.0 / 16777216.0) / w : -3.4e38;
-}
 
 void main() {
     uint item = params.item_first + take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u);
@@ -81,45 +71,22 @@ void main() {
     while (k < end) {
         uint entry = texelFetch(bin_entries, int(k)).x;
         CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
-        vec3 a0 = tile_relative(c.a0, centre.x, centre.y), a1 = tile_relative(c.a1, centre.x, centre.y), a2 = tile_relative(c.a2, centre.x, centre.y);
-        vec3 b0 = tile_relative(c.b0, centre.x, centre.y), b1 = tile_relative(c.b1, centre.x, centre.y), b2 = tile_relative(c.b2, centre.x, centre.y);
-        BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, kReach, 0.5, extent);
-        EdgeBound e0 = edge_bound(a1, a2, b1, b2, scale, kReach);
-        EdgeBound e1 = edge_bound(a2, a0, b2, b0, scale, kReach);
-        EdgeBound e2 = edge_bound(a0, a1, b0, b1, scale, kReach);
-        // Along the column both ends of every bound are linear in the row.
-        vec3 start = vec3(e0.start.x, e1.start.x, e2.start.x) * x + vec3(e0.start.z, e1.start.z, e2.start.z);
-        vec3 start_step = vec3(e0.start.y, e1.start.y, e2.start.y);
-        vec3 finish = vec3(e0.end.x, e1.end.x, e2.end.x) * x + vec3(e0.end.z, e1.end.z, e2.end.z);
-        vec3 finish_step = vec3(e0.end.y, e1.end.y, e2.end.y);
+        ColumnBounds column = column_bounds(c, centre.x, centre.y, x, kReach, extent);
         uint hits = 0u;
         [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-            float y = float(r) - 3.5;
-            vec3 s = start_step * y + start;
-            vec3 f = finish_step * y + finish;
-            float lo = 0.0, hi = 1.0, highest = 0.0;
-            clip_to_bound(s.x, f.x, lo, hi, highest);
-            clip_to_bound(s.y, f.y, lo, hi, highest);
-            clip_to_bound(s.z, f.z, lo, hi, highest);
-            bool hit = highest >= 0.0 && lo - slack <= hi + slack;
+            bool hit = touches_texel(texel_times(column, float(r) - 3.5), slack);
             hits |= hit ? 1u << r : 0u;
         }
         hits &= row_mask;
         if (!kFill) {
             [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] += (hits >> r) & 1u;
         } else {
-            float nearest = nearest_depth(c);
+            float nearest = nearest_depth(c, kOrthographic);
             while (hits != 0u) {
                 uint r = uint(findLSB(hits));
                 hits &= hits - 1u;
-                float y = float(r) - 3.5;
-                vec3 s = start_step * y + start;
-                vec3 f = finish_step * y + finish;
-                float lo = 0.0, hi = 1.0, highest = 0.0;
-                clip_to_bound(s.x, f.x, lo, hi, highest);
-                clip_to_bound(s.y, f.y, lo, hi, highest);
-                clip_to_bound(s.z, f.z, lo, hi, highest);
-                vec4 range = vec4((cell_start + (lo - slack)) * per_cell, (cell_start + (hi + slack)) * per_cell, nearest, uintBitsToFloat(entry));
+                vec2 times = range_times(texel_times(column, float(r) - 3.5), cell_start, per_cell, slack);
+                vec4 range = vec4(times, nearest, uintBitsToFloat(entry));
 #ifdef LAYOUT_CURSOR
                 uint cursor = 0u;
                 [[unroll]] for (uint q = 0u; q < 8u; ++q) {

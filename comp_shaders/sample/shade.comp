@@ -94,13 +94,14 @@ void main() {
     float depth_sum = film[kFilmDepth * plane + at];
     uint s = inside ? 0u : params.stratum_count;
     while (s < params.stratum_count) {
-        // On to the next sample that hit something, so that all invocations of a subgroup shade.
-        uint place, entry;
-        do {
+        // On to the next sample that hit something, so that all invocations of a subgroup shade. Tested at the loop's top: see sample/shadow.
+        uint place = 0u;
+        uint entry = kNone;
+        while (entry == kNone && s < params.stratum_count) {
             place = (tile_in_batch * params.stratum_count + s) * kTileTexels + texel;
             entry = texelFetch(hits, int(place)).x;
             ++s;
-        } while (entry == kNone && s < params.stratum_count);
+        }
         if (entry != kNone) {
             Receiver h = fetch_receiver(entry, pixel, params.stratum_first + s - 1u, params.spp, params.seed, grid, kStraddle, kOrthographic);
             vec3 w0 = world_at(positions, h.vertex.x, h), w1 = world_at(positions, h.vertex.y, h), w2 = world_at(positions, h.vertex.z, h);

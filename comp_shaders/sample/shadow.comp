@@ -100,17 +100,20 @@ void main() {
     uint steps = 0u;
     bool more = here && layout_more(it);
     while (more) {
-        // Walk to the next candidate of each invocation, then test all of them together.
-        bool candidate;
-        uint entry;
-        do {
+        // Walk to the next candidate of each invocation, then test all of them together. What is read behind a loop that invocations leave at different times must
+        // be the loop's own state, tested at its top: lavapipe gives values made in the body those of the last iteration of any invocation.
+        bool searching = true;
+        bool candidate = false;
+        uint entry = 0u;
+        while (searching) {
             vec4 range = layout_next(it);
             entry = floatBitsToUint(range.w);
             candidate = h.t >= range.x && h.t <= range.y && range.z < limit && (entry & ~kReversed) != own;
             if (kCount) ++visited;
             if (kResume) ++steps;
             more = layout_more(it) && (!kResume || steps < kListChunk);
-        } while (more && !candidate);
+            searching = more && !candidate;
+        }
         shadowed = candidate && occludes(entry, h, x, y, limit);
         if (kCount) tested += candidate ? 1u : 0u;
         more = more && !shadowed;

@@ -8,7 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
 #include "shared/rect.h"
-#include "math/orientation.h"
+#include "math/texel_range.h"
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform usamplerBuffer triangles;
@@ -26,18 +26,15 @@ void main() {
     uint segment = segment_of_cell(grid, params.cell);
     CellTriangle c = fetch_cell_triangle(grid, triangle, segment * grid.vertex_stride, cell_span(grid, params.cell));
 
-    float lowest_w = min(min_of(c.a0.w, c.a1.w, c.a2.w), min_of(c.b0.w, c.b1.w, c.b2.w));
     float highest_w = max(max_of(c.a0.w, c.a1.w, c.a2.w), max_of(c.b0.w, c.b1.w, c.b2.w));
-    bool in_front = lowest_w > 0.0;
+    bool in_front = cell_in_front(c);
     vec2 pa0 = c.a0.xy / c.a0.w, pa1 = c.a1.xy / c.a1.w, pa2 = c.a2.xy / c.a2.w;
     vec2 pb0 = c.b0.xy / c.b0.w, pb1 = c.b1.xy / c.b1.w, pb2 = c.b2.xy / c.b2.w;
     vec2 lower = min(min(min(pa0, pa1), pa2), min(min(pb0, pb1), pb2));
     vec2 upper = max(max(max(pa0, pa1), pa2), max(max(pb0, pb1), pb2));
-    vec2 centre = in_front ? pa0 : vec2(0.0);
 
     float extent = grid_extent(grid);
-    uint seen = orientations(tile_relative(c.a0, centre.x, centre.y), tile_relative(c.a1, centre.x, centre.y), tile_relative(c.a2, centre.x, centre.y),
-                             tile_relative(c.b0, centre.x, centre.y), tile_relative(c.b1, centre.x, centre.y), tile_relative(c.b2, centre.x, centre.y), extent);
+    uint seen = cell_orientations(c, extent);
 
     // Rounding of the vertices and of the samples, as in math/range.h; time is widened where ranges are compared, here it moves the bounds.
     vec2 slack = kShiftRounding * (extent + max(abs(lower), abs(upper))) + time_slack(grid.cell_count) * (upper - lower);

@@ -12,6 +12,9 @@ namespace gnomon::gltf {
 
 namespace {
 
+constexpr uint64_t kMaxAccessorBytes = uint64_t{1} << 29;
+constexpr uint64_t kMaxDecodedBytes = uint64_t{1} << 32;
+
 AccessorInfo info_of(const tinygltf::Accessor& accessor) {
     static constexpr std::string_view kTypes[] = {"VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
     static constexpr int kIds[] = {TINYGLTF_TYPE_VEC2, TINYGLTF_TYPE_VEC3, TINYGLTF_TYPE_VEC4,
@@ -108,6 +111,11 @@ std::vector<Result> read(const Document& document, int number) {
     const tinygltf::Accessor& accessor = document.model.accessors[static_cast<size_t>(number)];
     const AccessorInfo info = info_of(accessor);
     const size_t width = size_t{info.columns} * info.rows;
+    document.decoded_bytes += float_bytes(accessor);
+    if (float_bytes(accessor) > kMaxAccessorBytes || document.decoded_bytes > kMaxDecodedBytes) {
+        throw Error(ErrorKind::input, "the scene has too much data",
+                    "in " + document.name + ": /accessors/" + std::to_string(number), "render it in parts");
+    }
     std::vector<Result> values(info.count * width);
     if (accessor.bufferView >= 0) {
         const size_t view_stride = document.model.bufferViews[static_cast<size_t>(accessor.bufferView)].byteStride;

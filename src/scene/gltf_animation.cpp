@@ -72,9 +72,10 @@ private:
             animation.samplers.push_back(sampler_of(sampler, number));
 
         AnimationInfo info{from.name, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0};
+        std::set<std::pair<int, Rig::Path>> targets;
         for (const tinygltf::AnimationChannel& channel : from.channels) {
             const std::optional<Rig::Path> path = path_of(channel.target_path);
-            if (!path) continue;
+            if (!path || !targets.insert({channel.target_node, *path}).second) continue;
             animation.channels.push_back({static_cast<uint32_t>(channel.sampler), channel.target_node, *path});
             const std::vector<float>& times = rig_.tracks[animation.samplers[static_cast<size_t>(channel.sampler)].times];
             info.start = std::min(info.start, double{times.front()});
@@ -85,7 +86,7 @@ private:
         const size_t in_file = Cursor(document_.json["animations"][number], document_.name).count("channels");
         if (info.channels < in_file) {
             scene_.warnings.push_back(animation.name + ": " + std::to_string(in_file - info.channels) +
-                                      " channels without a node, or that animate something else than it, are ignored");
+                                      " channels without a node, for something else than it, or for a second time are ignored");
         }
         rig_.animations.push_back(std::move(animation));
         scene_.animations.push_back(std::move(info));

@@ -177,7 +177,7 @@ void load_buffers(Document& document, SceneFile& file) {
 
 Document read_document(const std::filesystem::path& path, std::vector<std::string>& warnings) {
     SceneFile file = read_scene_file(path, warnings);
-    Document document{file.folder, file.name, parse_json(file), {}};
+    Document document{file.folder, file.name, parse_json(file), {}, 0};
     file.json = {};
     make_integers(document.json);
     check_document(document.root());

@@ -20,6 +20,8 @@ struct Document {
     /// Accessors of types that nothing may use read as one scalar. Buffers hold their bytes, or nothing where the file names no
     /// data for them. Images are left out: see read_image.
     tinygltf::Model model;
+    /// Bytes that have been read from accessors: a small file can name the same data any number of times, so this is bounded.
+    mutable uint64_t decoded_bytes = 0;
 
     Cursor root() const { return Cursor(json, name); }
 };

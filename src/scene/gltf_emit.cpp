@@ -11,10 +11,10 @@ namespace gnomon::gltf {
 
 namespace {
 
-// Bounds on memory and time, checked before anything is decoded: a small file can name the same data any number of times.
+// Bounds on memory, checked before anything is decoded: a small file can name the same data any number of times.
 constexpr uint64_t kMaxSceneBytes = uint64_t{1} << 30;
 constexpr uint64_t kMaxPrimitiveBytes = uint64_t{1} << 29;
-constexpr uint64_t kMaxDecodedBytes = uint64_t{1} << 32;
+constexpr uint64_t kMaxWeights = uint64_t{1} << 24;
 
 class Builder {
 public:
@@ -60,14 +60,13 @@ private:
             for (const tinygltf::Primitive& primitive : model_.meshes[mesh].primitives) {
                 const PrimitiveBound bound = bound_of(document_, primitive);
                 if (bound.decoded_bytes > kMaxPrimitiveBytes) fail("a primitive has more than 512 MiB of data", "split it");
-                total.decoded_bytes += bound.decoded_bytes;
                 total.vertices += instances * bound.vertices;
                 total.triangles += instances * bound.triangles;
                 total.influences += instances * std::max(bound.influences, bound.vertices);
                 total.deltas += bound.deltas;
                 const uint64_t scene_bytes = total.vertices * sizeof(Vertex) + total.triangles * sizeof(Triangle) +
                                              total.influences * sizeof(Influence) + total.deltas * 2 * sizeof(glm::vec3);
-                if (scene_bytes > kMaxSceneBytes || total.decoded_bytes > kMaxDecodedBytes) {
+                if (scene_bytes > kMaxSceneBytes) {
                     fail("the scene has more geometry than fits 1 GiB", "render it in parts, or with fewer instances");
                 }
             }
@@ -83,12 +82,11 @@ private:
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<size_t>(model_.nodes[node].mesh)];
         const size_t targets = mesh.primitives[0].targets.size();
         if (targets == 0) return;
+        if (weight_count_ + targets > kMaxWeights) fail("the scene has too many morph weights", "use fewer morph targets");
         Rig::WeightBlock block;
         block.node = static_cast<int32_t>(node);
-        if (!rig_.weights.empty()) {
-            const Rig::WeightBlock& last = rig_.weights.back();
-            block.first = last.first + static_cast<uint32_t>(last.rest.size());
-        }
+        block.first = static_cast<uint32_t>(weight_count_);
+        weight_count_ += targets;
         block.rest = !model_.nodes[node].weights.empty() ? model_.nodes[node].weights : mesh.weights;
         block.rest.resize(targets, 0.0);
         rig_.weights_of_node[node] = static_cast<int32_t>(rig_.weights.size());
@@ -173,6 +171,7 @@ private:
     std::vector<std::vector<size_t>> nodes_of_mesh_;
     std::map<size_t, uint32_t> matrix_of_node_;
     std::map<size_t, uint32_t> matrices_of_skin_;
+    uint64_t weight_count_ = 0;
     uint64_t skewed_matrices_ = 0;
 };
 

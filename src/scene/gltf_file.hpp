@@ -12,7 +12,7 @@
 namespace gnomon::gltf {
 
 /// Most bytes of the JSON text, of all buffers together, and of one image file.
-inline constexpr uint64_t kMaxJsonBytes = uint64_t{512} << 20;
+inline constexpr uint64_t kMaxJsonBytes = uint64_t{256} << 20;
 inline constexpr uint64_t kMaxBufferBytes = uint64_t{1} << 30;
 inline constexpr uint64_t kMaxImageFileBytes = uint64_t{256} << 20;
 

@@ -33,14 +33,6 @@ std::vector<uint8_t> file_of(const Document& document, const Cursor& image) {
     return {begin, begin + static_cast<std::ptrdiff_t>(v.byteLength)};
 }
 
-template <typename F>
-void with_image(const Document& document, size_t number, const F& f) {
-    const Cursor root = document.root();
-    root.for_each("images", [&](const Cursor& image, size_t i) {
-        if (i == number) f(image);
-    });
-}
-
 ImageSize size_of(const Cursor& image, const std::vector<uint8_t>& file) {
     std::string reason;
     const std::optional<ImageSize> size = image_size(file, reason);
@@ -51,35 +43,36 @@ ImageSize size_of(const Cursor& image, const std::vector<uint8_t>& file) {
 }  // namespace
 
 void check_images(const Document& document) {
+    uint64_t encoded_bytes = 0;
     document.root().for_each("images", [&](const Cursor& image, size_t) {
         const std::vector<uint8_t> file = file_of(document, image);
+        encoded_bytes += file.size();
+        if (encoded_bytes > kMaxEncodedBytes) image.fail("the image files have more than 4 GiB together", "use smaller images");
         if (has_decoder(file)) size_of(image, file);
     });
 }
 
 std::optional<Image> read_image(const Document& document, size_t number, uint64_t& decoded_bytes,
                                 std::vector<std::string>& warnings) {
-    std::optional<Image> result;
-    with_image(document, number, [&](const Cursor& image) {
-        const auto name = image.find("name");
-        const std::string label = "image " + std::to_string(number) + (name ? " '" + name->string() + "'" : "");
-        const std::vector<uint8_t> file = file_of(document, image);
-        if (file.empty()) image.fail("the image has neither a file nor data", "export it with its images");
-        if (!has_decoder(file)) {
-            warnings.push_back(label + " is neither PNG nor JPEG: its textures are ignored, the base colour factor is used");
-            return;
-        }
-        const ImageSize size = size_of(image, file);
-        decoded_bytes += uint64_t{4} * size.width * size.height;
-        if (decoded_bytes > kMaxDecodedBytes)
-            image.fail("the decoded images have more than 1 GiB together", "use smaller images");
-        Image decoded{name ? name->string() : "", size.width, size.height, {}};
-        std::string reason;
-        decoded.rgba = decode_rgba(file, reason);
-        if (decoded.rgba.empty()) image.fail("the image cannot be decoded (" + reason + ")", "replace the image");
-        result = std::move(decoded);
-    });
-    return result;
+    const Cursor root = document.root();
+    const Cursor images = root.get("images");
+    const Cursor image = images.at(number);
+    const auto name = image.find("name");
+    const std::string label = "image " + std::to_string(number) + (name ? " '" + name->string() + "'" : "");
+    const std::vector<uint8_t> file = file_of(document, image);
+    if (file.empty()) image.fail("the image has neither a file nor data", "export it with its images");
+    if (!has_decoder(file)) {
+        warnings.push_back(label + " is neither PNG nor JPEG: its textures are ignored, the base colour factor is used");
+        return std::nullopt;
+    }
+    const ImageSize size = size_of(image, file);
+    decoded_bytes += uint64_t{4} * size.width * size.height;
+    if (decoded_bytes > kMaxDecodedBytes) image.fail("the decoded images have more than 1 GiB together", "use smaller images");
+    Image decoded{name ? name->string() : "", size.width, size.height, {}};
+    std::string reason;
+    decoded.rgba = decode_rgba(file, size, reason);
+    if (decoded.rgba.empty()) image.fail("the image cannot be decoded (" + reason + ")", "replace the image");
+    return decoded;
 }
 
 }  // namespace gnomon::gltf

@@ -13,6 +13,8 @@ namespace gnomon::gltf {
 
 /// Most bytes of all decoded images together.
 inline constexpr uint64_t kMaxDecodedBytes = uint64_t{1} << 30;
+/// And of all image files; one file named several times counts so often.
+inline constexpr uint64_t kMaxEncodedBytes = uint64_t{1} << 32;
 
 /// That the files of all images are there and the headers of PNG and JPEG valid. Errors: ErrorKind::input.
 void check_images(const Document& document);

@@ -90,7 +90,7 @@ std::vector<double> Cursor::numbers(size_t size) const {
     }
     std::vector<double> result;
     result.reserve(value_->size());
-    for (size_t i = 0; i < value_->size(); ++i) result.push_back(Cursor((*value_)[i], this, {}, i).number());
+    for (size_t i = 0; i < value_->size(); ++i) result.push_back(at(i).number());
     return result;
 }
 

@@ -34,6 +34,9 @@ public:
     /// Likewise, an error where it is missing.
     Cursor get(std::string_view key) const;
 
+    /// Element `i` of this array.
+    Cursor at(size_t i) const { return Cursor((*value_)[i], this, {}, i); }
+
     /// Calls f with each element of the array `key` and its index. A missing array has no elements.
     void for_each(std::string_view key, const std::function<void(const Cursor&, size_t)>& f) const;
 

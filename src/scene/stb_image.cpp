@@ -2,6 +2,21 @@
 // stb_image's code, for PNG and JPEG from memory only.
 #include "scene/stb_image.hpp"
 
+#include <cstdlib>
+
+namespace {
+
+// stb_image unpacks PNG data as far as they go, whatever size the header states: its allocations are bounded here.
+thread_local size_t largest_allocation = 0;
+
+void* bounded_malloc(size_t bytes) { return bytes > largest_allocation ? nullptr : std::malloc(bytes); }
+void* bounded_realloc(void* block, size_t bytes) { return bytes > largest_allocation ? nullptr : std::realloc(block, bytes); }
+
+}  // namespace
+
+#define STBI_MALLOC(bytes) bounded_malloc(bytes)
+#define STBI_REALLOC(block, bytes) bounded_realloc(block, bytes)
+#define STBI_FREE(block) std::free(block)
 #define STB_IMAGE_IMPLEMENTATION
 #define STB_IMAGE_STATIC
 #define STBI_ONLY_PNG
@@ -19,7 +34,14 @@
 
 namespace gnomon::gltf {
 
+namespace {
+
+constexpr size_t kDecoderState = size_t{1} << 20;  // More than what stb_image keeps beside texels and packed data.
+
+}  // namespace
+
 std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& reason) {
+    largest_allocation = kDecoderState;
     int width = 0;
     int height = 0;
     int channels = 0;
@@ -30,7 +52,9 @@ std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& 
     return ImageSize{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
 }
 
-std::vector<uint8_t> decode_rgba(std::span<const uint8_t> file, std::string& reason) {
+std::vector<uint8_t> decode_rgba(std::span<const uint8_t> file, ImageSize size, std::string& reason) {
+    // Four channels of two bytes, padded to blocks of JPEG; packed data are gathered in a buffer that doubles.
+    largest_allocation = size_t{8} * (size.width + 64) * (size.height + 64) + 2 * file.size() + kDecoderState;
     int width = 0;
     int height = 0;
     int channels = 0;

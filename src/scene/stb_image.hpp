@@ -18,7 +18,8 @@ struct ImageSize {
 /// What the header of an image file states; nothing, and a reason, if it is not valid. Sides are at most 16384.
 std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& reason);
 
-/// Four bytes per texel, rows from the top; empty, and a reason, if the file is not valid.
-std::vector<uint8_t> decode_rgba(std::span<const uint8_t> file, std::string& reason);
+/// Four bytes per texel, rows from the top; empty, and a reason, if the file is not valid. `size`: what the header states; data
+/// that unpack to more are not valid.
+std::vector<uint8_t> decode_rgba(std::span<const uint8_t> file, ImageSize size, std::string& reason);
 
 }  // namespace gnomon::gltf

@@ -283,6 +283,28 @@ TEST(ReferenceShading, LightFromBehindTheSurfaceIsNotReflected) {
     expect_near(colour_of(triangles), glm::vec3(0.0f));
 }
 
+TEST(ReferenceShading, ColourIsTheMeanOverAllSamplesAndDepthOverHits) {
+    MovingTriangles triangles(1);
+    triangles.add(half_plane(0.01f, 0.0f));
+    add_camera(triangles, {0.0, 0.0, 1.5});
+    Light light;
+    light.intensity = kPi;
+    triangles.add(light, {{{}, kUpright}});
+    ReferenceSettings settings;
+    settings.width = settings.height = 5;
+    const Frame frame = trace_reference(triangles.scene, triangles.poses, settings);
+    ASSERT_EQ(frame.channels[3].name, "A");
+    ASSERT_EQ(frame.channels[4].name, "Z");
+    for (size_t pixel = 0; pixel < 25; ++pixel) {
+        const float alpha = frame.channels[3].values[pixel];
+        const float whole[] = {1.0f, 1.0f, 0.56f, 0.0f, 0.0f};  // Columns are 0.1 wide; the third begins at x = -0.05.
+        EXPECT_NEAR(alpha, whole[pixel % 5], pixel % 5 == 2 ? 0.2f : 0.0f);
+        EXPECT_NEAR(frame.channels[0].values[pixel], alpha, 1e-6f);
+        EXPECT_NEAR(frame.channels[4].values[pixel], alpha > 0.0f ? 1.5f : 0.0f, 1e-6f);
+    }
+    EXPECT_LT(frame.channels[3].values[2], 1.0f);
+}
+
 TEST(ReferenceShading, SpotLight) {
     MovingTriangles triangles(1);
     triangles.add(plane(0.0f, 0.0f));

@@ -258,6 +258,7 @@ TEST(Reference, WrongSettingsAreErrors) {
     EXPECT_EQ(kind_of(soup.poses, [](auto& s) { s.height = 16385; }), ErrorKind::usage);
     EXPECT_EQ(kind_of(soup.poses, [](auto& s) { s.spp = 0; }), ErrorKind::usage);
     EXPECT_EQ(kind_of(soup.poses, [](auto& s) { s.camera = 1; }), ErrorKind::usage);
+    EXPECT_EQ(kind_of(soup.poses, [](auto& s) { s.threads = 1025; }), ErrorKind::usage);
     EXPECT_EQ(kind_of(soup.poses, [](auto& s) { s.embree_segments = 0; }), ErrorKind::usage);
     EXPECT_EQ(kind_of(soup.poses, [](auto& s) { s.embree_segments = 128; }), ErrorKind::usage);  // 129 with three segments.
     EXPECT_EQ(kind_of({soup.poses[0]}, [](auto&) {}), ErrorKind::usage);

@@ -29,6 +29,7 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const ReferenceSe
     check_range("width", settings.width, 1, 16384);
     check_range("height", settings.height, 1, 16384);
     check_range("samples per pixel", settings.spp, 1, 65536);
+    check_range("threads", settings.threads, 0, 1024);
     check_range("Embree segments", settings.embree_segments, 1, RTC_MAX_TIME_STEP_COUNT - 1);
     check_range("the number of poses", static_cast<uint32_t>(poses.size()), 2, RTC_MAX_TIME_STEP_COUNT);
     if (settings.camera >= scene.cameras.size()) {

@@ -15,11 +15,10 @@ struct ReferenceSettings {
     uint32_t height = 720;  ///< Pixels, 1 to 16384.
     uint32_t spp = 16;      ///< Samples per pixel, 1 to 65536.
     uint32_t seed = 0;
-    uint32_t camera = 0;   ///< Index into Scene::cameras.
-    uint32_t threads = 0;  ///< 0: as many as the hardware runs. The picture does not depend on it.
-    uint32_t embree_segments =
-        1;                      ///< Linear motion is given to Embree in at least this many segments: fast motion traces faster.
-    bool keep_samples = false;  ///< Fill Frame::samples.
+    uint32_t camera = 0;           ///< Index into Scene::cameras.
+    uint32_t threads = 0;          ///< 0: as many as the hardware runs. The picture does not depend on it.
+    uint32_t embree_segments = 1;  ///< Embree gets the motion in at least this many: fast motion traces faster.
+    bool keep_samples = false;     ///< Fill Frame::samples.
     /// true: hit points and the distances of occluders are computed in double, and R G B are shaded.
     /// false: for speed; what Embree finds in float is taken as it is, and the frame has no R G B.
     bool exact = true;
@@ -37,7 +36,7 @@ struct ReferenceSettings {
 /// error of the former: sqrt(p (1 - p) / max(n - 1, 1)) of n hits. Stages: pose, build (the BVH), primary, shadow, shade (film
 /// included); seconds are wall time, that of the last three split by the time that the threads spent in each.
 /// Errors: ErrorKind::usage for settings out of range or a camera that is not there; ErrorKind::input for more than 32 lights;
-/// ErrorKind::out_of_memory.
+/// ErrorKind::out_of_memory from Embree, std::bad_alloc from the rest.
 Frame trace_reference(const Scene& scene, const std::vector<Pose>& poses, const ReferenceSettings& settings);
 
 /// What trace_reference leaves out of this scene, one line each: point lights, which reflect nothing and have visibility 1.

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// A prism within one cell of time: its vertices, how it may be seen, when it may touch a texel and how near it comes.
+#ifndef GNOMON_MATH_TEXEL_RANGE_H
+#define GNOMON_MATH_TEXEL_RANGE_H
+#include "orientation.h"
+GN_BEGIN
+
+// Vertices at the cell's start (a) and end (b).
+struct CellTriangle {
+    vec4 a0, a1, a2;
+    vec4 b0, b1, b2;
+};
+
+// From the vertices at the segment's start (a) and their motion until its end (d); the cell lasts from local time start to end.
+GN_FN CellTriangle cell_triangle(vec4 a0, vec4 a1, vec4 a2, vec4 d0, vec4 d1, vec4 d2, float start, float end) {
+    CellTriangle c;
+    c.a0 = vertex_at(a0, d0, start);
+    c.a1 = vertex_at(a1, d1, start);
+    c.a2 = vertex_at(a2, d2, start);
+    c.b0 = vertex_at(a0, d0, end);
+    c.b1 = vertex_at(a1, d1, end);
+    c.b2 = vertex_at(a2, d2, end);
+    return c;
+}
+
+// All of it has w > 0 throughout the cell.
+GN_FN bool cell_in_front(CellTriangle c) { return min(min_of(c.a0.w, c.a1.w, c.a2.w), min_of(c.b0.w, c.b1.w, c.b2.w)) > 0.0f; }
+
+// Orientations (math/orientation.h), about a point of the image at the prism's own place.
+GN_FN uint cell_orientations(CellTriangle c, float extent) {
+    bool in_front = cell_in_front(c);
+    float x = in_front ? c.a0.x / c.a0.w : 0.0f;
+    float y = in_front ? c.a0.y / c.a0.w : 0.0f;
+    return orientations(tile_relative(c.a0, x, y), tile_relative(c.a1, x, y), tile_relative(c.a2, x, y), tile_relative(c.b0, x, y), tile_relative(c.b1, x, y),
+                        tile_relative(c.b2, x, y), extent);
+}
+
+// A lower bound of the triangle's depth during the cell.
+GN_FN float nearest_depth(CellTriangle c, bool orthographic) {
+    float z = min(min_of(c.a0.z, c.a1.z, c.a2.z), min_of(c.b0.z, c.b1.z, c.b2.z));
+    float w = min(min_of(c.a0.w, c.a1.w, c.a2.w), min_of(c.b0.w, c.b1.w, c.b2.w));
+    float flat_depth = z - abs(z) * (4.0f / 16777216.0f);
+    float deep = w > 0.0f ? -(1.0f + 8.0f / 16777216.0f) / w : -3.4e38f;
+    return orthographic ? flat_depth : deep;
+}
+
+// The bounds of the three edges along a column of texels: linear in the row, at the cell's start and at its end.
+struct ColumnBounds {
+    vec3 start, start_step;
+    vec3 end, end_step;
+};
+
+// x: of the column's centre; (cx, cy): the tile's centre, reach: half its side, texels. For texels of side 1.
+GN_FN ColumnBounds column_bounds(CellTriangle c, float cx, float cy, float x, float reach, float extent) {
+    vec3 a0 = tile_relative(c.a0, cx, cy), a1 = tile_relative(c.a1, cx, cy), a2 = tile_relative(c.a2, cx, cy);
+    vec3 b0 = tile_relative(c.b0, cx, cy), b1 = tile_relative(c.b1, cx, cy), b2 = tile_relative(c.b2, cx, cy);
+    BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, reach, 0.5f, extent);
+    EdgeBound e0 = edge_bound(a1, a2, b1, b2, scale, reach);
+    EdgeBound e1 = edge_bound(a2, a0, b2, b0, scale, reach);
+    EdgeBound e2 = edge_bound(a0, a1, b0, b1, scale, reach);
+    ColumnBounds column;
+    column.start = vec3(e0.start.x, e1.start.x, e2.start.x) * x + vec3(e0.start.z, e1.start.z, e2.start.z);
+    column.start_step = vec3(e0.start.y, e1.start.y, e2.start.y);
+    column.end = vec3(e0.end.x, e1.end.x, e2.end.x) * x + vec3(e0.end.z, e1.end.z, e2.end.z);
+    column.end_step = vec3(e0.end.y, e1.end.y, e2.end.y);
+    return column;
+}
+
+// Times u within the cell, 0 to 1, from x to y, at which the prism may touch the texel at `row` (of its centre, tile-relative); z < 0 where it never does.
+// Both ends are still to be widened by time_slack.
+GN_FN vec3 texel_times(ColumnBounds column, float row) {
+    vec3 s = column.start_step * row + column.start;
+    vec3 e = column.end_step * row + column.end;
+    float lo = 0.0f, hi = 1.0f, highest = 0.0f;
+    clip_to_bound(s.x, e.x, lo, hi, highest);
+    clip_to_bound(s.y, e.y, lo, hi, highest);
+    clip_to_bound(s.z, e.z, lo, hi, highest);
+    return vec3(lo, hi, highest);
+}
+
+GN_FN bool touches_texel(vec3 times, float slack) { return times.z >= 0.0f && times.x - slack <= times.y + slack; }
+
+// The range's times in the shutter.
+GN_FN vec2 range_times(vec3 times, float cell_start, float per_cell, float slack) {
+    return vec2((cell_start + (times.x - slack)) * per_cell, (cell_start + (times.y + slack)) * per_cell);
+}
+
+GN_END
+#endif
