@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Purpose: split the large prisms of one cell into blocks of kBlockTiles tiles, one workgroup of bin/large each.
+// Purpose: split the large prisms of one cell into blocks of kBlockTiles tiles, 8 invocations of bin/large each.
 // Reads:   rects of the cell
 // Writes:  Blocks (triangle; block number | cell << 20), BlockCount (next free place)
 // Grid:    one invocation per triangle

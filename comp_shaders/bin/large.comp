@@ -3,7 +3,7 @@
 // Purpose: list large prisms in those tiles of their bounds that they can touch. Count, or fill after the scan.
 // Reads:   blocks, rects (of all cells), triangles, raster_vertices
 // Writes:  Lists (count: entries per list; fill: the next free place of each list), Entries (fill)
-// Grid:    one workgroup per block, one invocation per tile
+// Grid:    8 invocations per block, one per tile
 // Source:  math/range.h, with the tile as the box
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
@@ -38,15 +38,15 @@ bool touches_tile(vec3 a0, vec3 a1, vec3 a2, vec3 b0, vec3 b1, vec3 b2, float ex
 }
 
 void main() {
-    uint group = group_index();
-    if (group >= params.block_count) return;
+    uint number = group_index() * (gl_WorkGroupSize.x / kBlockTiles) + gl_LocalInvocationID.x / kBlockTiles;
+    if (number >= params.block_count) return;
     ViewGrid grid = params.grid;
-    uvec2 block = texelFetch(blocks, int(group)).xy;
+    uvec2 block = texelFetch(blocks, int(number)).xy;
     uint triangle = block.x;
     uint cell = block.y >> 20u;
     Rect rect = unpack_rect(texelFetch(rects, int(cell * params.rect_stride + triangle)).xy);
     uint columns = rect.last.x - rect.first.x + 1u;
-    uint tile = (block.y & 0xfffffu) * kBlockTiles + gl_LocalInvocationID.x;
+    uint tile = (block.y & 0xfffffu) * kBlockTiles + gl_LocalInvocationID.x % kBlockTiles;
     uint row = tile / columns;
     uvec2 t = uvec2(rect.first.x + (tile - row * columns), rect.first.y + row);
     bool inside = t.y <= rect.last.y;

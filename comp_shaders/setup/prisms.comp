@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: for each prism in one cell of time: the tiles that it may touch and the orientations in which it may be seen.
 // Reads:   triangles, raster_vertices
-// Writes:  Rects of the cell (shared/rect.h), BlockCount (workgroups that bin/large will need)
+// Writes:  Rects of the cell (shared/rect.h), BlockCount (blocks that bin/large will need)
 // Grid:    one invocation per triangle
 // Source:  bounds of a linear motion are those of its ends, since x / w is monotone in time for w > 0
 #extension GL_GOOGLE_include_directive : require
@@ -24,7 +24,9 @@ void main() {
     if (triangle >= params.grid.triangle_count) return;
     ViewGrid grid = params.grid;
     uint segment = segment_of_cell(grid, params.cell);
-    CellTriangle c = fetch_cell_triangle(grid, triangle, segment * grid.vertex_stride, cell_span(grid, params.cell));
+    MovingTriangle m = fetch_moving_triangle(triangle, segment * grid.vertex_stride, grid.vertex_stride);
+    vec2 span = cell_span(grid, params.cell);
+    CellTriangle c = cell_triangle(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, span.x, span.y);
 
     float highest_w = max(max_of(c.a0.w, c.a1.w, c.a2.w), max_of(c.b0.w, c.b1.w, c.b2.w));
     bool in_front = cell_in_front(c);
@@ -34,7 +36,7 @@ void main() {
     vec2 upper = max(max(max(pa0, pa1), pa2), max(max(pb0, pb1), pb2));
 
     float extent = grid_extent(grid);
-    uint seen = cell_orientations(c, extent);
+    uint seen = prism_orientations(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, c, extent);
 
     // Rounding of the vertices and of the samples, as in math/range.h; time is widened where ranges are compared, here it moves the bounds.
     vec2 slack = kShiftRounding * (extent + max(abs(lower), abs(upper))) + time_slack(grid.cell_count) * (upper - lower);

@@ -16,8 +16,8 @@ const uint kNone = 0xffffffffu;
 const uint kReversed = 0x80000000u;
 // Prisms whose bounds in a cell hold at most this many tiles are binned without a closer look.
 const uint kSmallTiles = 4u;
-// Tiles that one workgroup of the binning of large prisms looks at.
-const uint kBlockTiles = 64u;
+// Tiles that one block of 8 invocations looks at when large prisms are binned.
+const uint kBlockTiles = 8u;
 // Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, without a word.
 const uint kListChunk = 12288u;
 // Elements that one invocation scans.
@@ -58,7 +58,7 @@ struct BinParams {
     ViewGrid grid;
     uint cell;         // bin/small, bin/blocks.
     uint rect_stride;  // bin/large: rects from one cell to the next.
-    uint block_count;  // bin/large: workgroups that have work.
+    uint block_count;  // bin/large.
 };
 
 struct ScanParams {

@@ -30,7 +30,7 @@ GN_FN uint rect_tiles(uvec2 first, uvec2 last) { return (last.x - first.x + 1u) 
 // Large prisms are tested against each tile (bin/large), small ones are not (bin/small).
 GN_FN bool rect_is_large(uvec2 first, uvec2 last, bool in_front) { return !in_front || rect_tiles(first, last) > kSmallTiles; }
 
-// Workgroups that bin/large spends on the prism.
+// Blocks that bin/large spends on the prism.
 GN_FN uint rect_blocks(uvec2 first, uvec2 last) { return (rect_tiles(first, last) + kBlockTiles - 1u) / kBlockTiles; }
 
 GN_END

@@ -10,7 +10,7 @@ namespace {
 // More cells cut the tests of fast prisms and list slow ones again in each.
 constexpr uint32_t kFewestCells = 8;
 constexpr uint32_t kMostCells = 16;
-constexpr uint32_t kLightCells = 1;
+constexpr uint32_t kLightCells = 4;
 // Enough samples to keep any device busy; the buffers of a batch stay small.
 constexpr uint64_t kBatchSlots = 4u << 20;
 // A loop over a batch's strata must end before lavapipe's limit of iterations, with all its lights.

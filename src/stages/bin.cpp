@@ -82,14 +82,14 @@ Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometr
                                   params(cell), triangle_groups);
             }
         }
-        recorder.dispatch(stage, programs.get("bin/large", {fill}),
+        recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs.get("bin/large", {fill}),
                           bindings({{"blocks", &blocks, Texel::rg32_uint},
                                     {"rects", &rects, Texel::rg32_uint},
                                     {"triangles", &geometry.triangles, Texel::rgba32_uint},
                                     {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
                                     {"Lists", &lists},
                                     {"Entries", &entries}}),
-                          params(0), large_blocks);
+                          params(0), groups_of(uint64_t(large_blocks) * shared::kBlockTiles, 64));
     };
     gpu::Buffer no_entries = device.allocate("bin_entries", 4);
     recorder.fill("bin/count", bins.offsets, 0);
