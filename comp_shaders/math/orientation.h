@@ -12,7 +12,7 @@ GN_FN float det3(vec3 a, vec3 b, vec3 c) {
     return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
 }
 
-// Vertices (x, y, w) relative to any fixed image point near the triangle, at the cell's start (a) and end (b). Zero: the triangle has no area at any time.
+// Vertices (x, y, w) relative to any fixed image point near the triangle, at the cell's start (a) and end (b).
 GN_FN uint orientations(vec3 a0, vec3 a1, vec3 a2, vec3 b0, vec3 b1, vec3 b2, float extent) {
     float c0 = det3(a0, a1, a2);
     float c1 = (det3(b0, a1, a2) + det3(a0, b1, a2) + det3(a0, a1, b2)) * (1.0f / 3.0f);
@@ -25,8 +25,7 @@ GN_FN uint orientations(vec3 a0, vec3 a1, vec3 a2, vec3 b0, vec3 b1, vec3 b2, fl
     float mw = max(max_of(abs(a0.z), abs(a1.z), abs(a2.z)), max_of(abs(b0.z), abs(b1.z), abs(b2.z)));
     // Six products each with at most 16 roundings, and coordinates that were rounded at the size of `extent` texels.
     float error = 6.0f * kProductRounding * mx * my * mw + 4.0f * kShiftRounding * extent * mw * mw * (mx + my);
-    uint seen = (highest >= -error ? kSeenPositive : 0u) | (lowest <= error ? kSeenNegative : 0u);
-    return lowest == 0.0f && highest == 0.0f ? 0u : seen;
+    return (highest >= -error ? kSeenPositive : 0u) | (lowest <= error ? kSeenNegative : 0u);
 }
 
 GN_END

@@ -21,7 +21,7 @@ struct RenderSettings {
     uint32_t shadow_res = 1024;  ///< Texels along a light view's side, 1 to 16384.
     std::string method = "exact";
     std::string layout = "array";  ///< A registered layout, or a folder that holds one.
-    std::string raster = "auto";   ///< analytic, conservative, or auto: what the method needs.
+    std::string raster = "auto";   ///< How ranges are found: analytic, conservative, or auto: what the method is made for.
     uint64_t memory_budget = 0;    ///< Most bytes of device memory; 0: half the device's heap.
     bool keep_samples = false;     ///< Fill Frame::samples.
 };
@@ -60,6 +60,7 @@ struct Frame {
     uint32_t light_count = 0;
     std::vector<Channel> channels;  ///< R G B A Z, then visibility.<i> and visibility_var.<i> for each light.
     std::vector<SampleRecord> samples;
+    std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
 };
 

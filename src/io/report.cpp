@@ -20,8 +20,9 @@ Json settings_json(const RenderSettings& settings) {
     };
 }
 
-Json render_json(const FrameStats& stats, const Json& settings, const std::vector<std::string>& outputs,
+Json render_json(const Frame& frame, const Json& settings, const std::vector<std::string>& outputs,
                  const std::vector<std::string>& warnings) {
+    const FrameStats& stats = frame.stats;
     Json stages = Json::array();
     for (const FrameStats::Stage& stage : stats.stages)
         stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"dispatches", stage.dispatches}});
@@ -29,6 +30,7 @@ Json render_json(const FrameStats& stats, const Json& settings, const std::vecto
     Json json = document("render");
     json["device"] = stats.device;
     json["settings"] = settings;
+    json["effective"] = frame.effective;
     json["stages"] = stages;
     json["buffers"] = stats.buffer_bytes;
     json["peak_bytes"] = stats.peak_bytes;
@@ -39,10 +41,11 @@ Json render_json(const FrameStats& stats, const Json& settings, const std::vecto
     return json;
 }
 
-std::map<std::string, std::string> exr_attributes(const Json& settings) {
+std::map<std::string, std::string> exr_attributes(const Json& settings, const std::map<std::string, std::string>& effective) {
     std::map<std::string, std::string> attributes;
     for (const auto& [name, value] : settings.items())
         attributes["gnomon:" + name] = value.is_string() ? value.get<std::string>() : to_text(value, -1);
+    for (const auto& [name, value] : effective) attributes["gnomon:effective." + name] = value;
     return attributes;
 }
 

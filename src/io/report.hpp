@@ -22,6 +22,7 @@ Json settings_json(const RenderSettings& settings);
 /// The document "gnomon.render" of one frame:
 ///   device        string
 ///   settings      object, as given
+///   effective     {name: string}, what was really used where the settings leave a choice
 ///   stages        [{name, seconds, dispatches}], seconds on the device, in the order in which the stages ran first
 ///   buffers       {name: bytes}, the largest size of each
 ///   peak_bytes    most device memory at one time
@@ -29,11 +30,12 @@ Json settings_json(const RenderSettings& settings);
 ///   wall_seconds  on the host, for the frame without reading the scene and writing files
 ///   outputs       [path], the image files of the frame
 ///   warnings      [string], one line each
-Json render_json(const FrameStats& stats, const Json& settings, const std::vector<std::string>& outputs,
+Json render_json(const Frame& frame, const Json& settings, const std::vector<std::string>& outputs,
                  const std::vector<std::string>& warnings);
 
-/// The settings as text attributes: "gnomon:<name>" for each member. Numbers in the fewest digits that give them back.
-std::map<std::string, std::string> exr_attributes(const Json& settings);
+/// The settings as text attributes: "gnomon:<name>" for each member, numbers in the fewest digits that give them back; and
+/// "gnomon:effective.<name>" for each of Frame::effective.
+std::map<std::string, std::string> exr_attributes(const Json& settings, const std::map<std::string, std::string>& effective);
 
 /// A JSON document as text; indent -1: on one line. Bytes that are not UTF-8 (they come from file names) become U+FFFD; numbers
 /// that are not finite become null.

@@ -16,15 +16,19 @@ struct Format {
 };
 
 const std::map<std::string, Format> kFormats = {
-    {"r32_float", {gpu::Texel::r32_float, 4}},   {"rg32_float", {gpu::Texel::rg32_float, 8}}, {"rgba32_float", {gpu::Texel::rgba32_float, 16}},
-    {"r32_uint", {gpu::Texel::r32_uint, 4}},     {"rg32_uint", {gpu::Texel::rg32_uint, 8}},   {"rgba32_uint", {gpu::Texel::rgba32_uint, 16}},
+    {"r32_float", {gpu::Texel::r32_float, 4}},        {"rg32_float", {gpu::Texel::rg32_float, 8}},
+    {"rgba32_float", {gpu::Texel::rgba32_float, 16}}, {"r32_uint", {gpu::Texel::r32_uint, 4}},
+    {"rg32_uint", {gpu::Texel::rg32_uint, 8}},        {"rgba32_uint", {gpu::Texel::rgba32_uint, 16}},
 };
+
+const std::map<std::string, bool> kExitOnly = {{"always", false}, {"exit", true}};
 
 const std::map<std::string, LayoutBuffer::Per> kPer = {
     {"once", LayoutBuffer::Per::once}, {"list", LayoutBuffer::Per::list}, {"range", LayoutBuffer::Per::range}};
 
 template <class Value>
-Value lookup(const std::map<std::string, Value>& table, const std::string& key, const std::string& member, const std::string& where) {
+Value lookup(const std::map<std::string, Value>& table, const std::string& key, const std::string& member,
+             const std::string& where) {
     auto found = table.find(key);
     if (found != table.end()) return found->second;
     std::string known;
@@ -40,6 +44,7 @@ LayoutBuffer parse_buffer(const nlohmann::json& json, const std::string& where) 
     buffer.format = format.texel;
     buffer.element_bytes = format.bytes;
     buffer.per = lookup(kPer, json.at("per").get<std::string>(), "per", where);
+    buffer.exit_only = lookup(kExitOnly, json.value("when", "always"), "when", where);
     buffer.scan = json.value("scan", false);
     buffer.copy_of = json.value("copy_of", "");
     if (json.contains("clear")) {
@@ -51,7 +56,8 @@ LayoutBuffer parse_buffer(const nlohmann::json& json, const std::string& where) 
         }
     }
     if (buffer.scan && (buffer.per != LayoutBuffer::Per::list || buffer.element_bytes != 4)) {
-        throw Error(ErrorKind::input, "'scan' needs one r32_uint per list", where, "change 'per' or 'format' of " + buffer.block);
+        throw Error(ErrorKind::input, "'scan' needs one r32_uint per list", where,
+                    "change 'per' or 'format' of " + buffer.block);
     }
     return buffer;
 }
@@ -69,7 +75,8 @@ Layout parse_layout(std::string_view text, const std::string& where) {
         for (const auto& buffer : json.at("buffers")) layout.buffers.push_back(parse_buffer(buffer, where));
         return layout;
     } catch (const nlohmann::json::exception& e) {
-        throw Error(ErrorKind::input, std::string("not a layout's manifest: ") + e.what(), where, "see ARCHITECTURE.md, A new layout");
+        throw Error(ErrorKind::input, std::string("not a layout's manifest: ") + e.what(), where,
+                    "see ARCHITECTURE.md, A new layout");
     }
 }
 
@@ -86,6 +93,11 @@ Layout find_layout(const std::string& name) {
         known += (known.empty() ? "" : ", ") + std::string(entry.name);
     }
     throw Error(ErrorKind::usage, "no S-buffer layout '" + name + "'", "--layout", "use one of " + known);
+}
+
+Layout with_ranges(Layout layout, bool exit_depth) {
+    if (!exit_depth) std::erase_if(layout.buffers, [](const LayoutBuffer& buffer) { return buffer.exit_only; });
+    return layout;
 }
 
 }  // namespace gnomon

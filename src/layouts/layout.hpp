@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// S-buffer layouts: a folder with layout.glsl (count, emit, begin, next) and layout.json (its buffers). No C++ belongs to a layout.
+// S-buffer layouts: a folder with layout.glsl (count, emit, begin, next) and layout.json (its buffers). No C++ belongs to a
+// layout.
 #pragma once
 
 #include <optional>
@@ -16,21 +17,22 @@ struct LayoutBuffer {
     enum class Per { once, list, range };
     enum class Clear { no, value, range_first };
 
-    std::string block;                      ///< The storage block that writes it.
-    std::string texel;                      ///< The texel buffer that reads it; empty: not read by the shadow test.
+    std::string block;  ///< The storage block that writes it.
+    std::string texel;  ///< The texel buffer that reads it; empty: not read by the shadow test.
     gpu::Texel format = gpu::Texel::r32_uint;
     uint32_t element_bytes = 4;
-    Per per = Per::once;                    ///< One element for the view, per list (texel and cell), or per range.
-    bool scan = false;                      ///< After the count pass: replaced by its exclusive prefix sum.
-    std::string copy_of;                    ///< After that: a copy of this buffer.
-    Clear clear = Clear::no;                ///< Before the fill pass.
+    Per per = Per::once;      ///< One element for the view, per list (texel and cell), or per range.
+    bool exit_only = false;   ///< Only for methods whose ranges have a depth at their exit.
+    bool scan = false;        ///< After the count pass: replaced by its exclusive prefix sum.
+    std::string copy_of;      ///< After that: a copy of this buffer.
+    Clear clear = Clear::no;  ///< Before the fill pass.
     uint32_t clear_value = 0;
 };
 
 struct Layout {
     std::string name;
     std::string summary;
-    std::string source;   ///< Paper and section.
+    std::string source;  ///< Paper and section.
     bool lossless = true;
     std::vector<LayoutBuffer> buffers;
 };
@@ -40,6 +42,9 @@ std::vector<std::string> layout_names();
 
 /// Errors: ErrorKind::usage, naming those that exist.
 Layout find_layout(const std::string& name);
+
+/// Without the buffers that only an exit depth needs, where there is none.
+Layout with_ranges(Layout layout, bool exit_depth);
 
 /// Parse a manifest. Errors: ErrorKind::input naming `where` and the member.
 Layout parse_layout(std::string_view json, const std::string& where);

@@ -35,19 +35,15 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const RenderSetti
     check_range("spp", settings.spp, 1, 65536);
     check_range("shadow resolution", settings.shadow_res, 1, 16384);
     check_range("number of poses", poses.size(), 2, 65);
-    if (scene.triangles.empty()) throw Error(ErrorKind::input, "the scene has no triangles", scene.path.string(), "add a mesh with triangles");
+    if (scene.triangles.empty())
+        throw Error(ErrorKind::input, "the scene has no triangles", scene.path.string(), "add a mesh with triangles");
     if (settings.camera >= scene.cameras.size()) {
         throw Error(ErrorKind::usage, "there is no camera " + std::to_string(settings.camera), scene.path.string(),
                     "the scene has " + std::to_string(scene.cameras.size()));
     }
     if (scene.lights.size() > kMostLights) {
-        throw Error(ErrorKind::input, std::to_string(scene.lights.size()) + " lights", scene.path.string(), "use at most " + std::to_string(kMostLights));
-    }
-    if (settings.method != "exact") {
-        throw Error(ErrorKind::usage, "no method '" + settings.method + "'", "--method", "use exact");
-    }
-    if (settings.raster != "auto" && settings.raster != "conservative") {
-        throw Error(ErrorKind::usage, "method exact cannot use raster '" + settings.raster + "'", "--raster", "use conservative");
+        throw Error(ErrorKind::input, std::to_string(scene.lights.size()) + " lights", scene.path.string(),
+                    "use at most " + std::to_string(kMostLights));
     }
 }
 
@@ -72,7 +68,9 @@ std::vector<glm::vec4> light_records(const Scene& scene, const std::vector<Pose>
     return records;
 }
 
-Channel channel(const std::string& name, const float* plane, size_t pixels) { return {name, std::vector<float>(plane, plane + pixels)}; }
+Channel channel(const std::string& name, const float* plane, size_t pixels) {
+    return {name, std::vector<float>(plane, plane + pixels)};
+}
 
 // Means over samples and hits (cli.md, Meaning of the output).
 void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp) {
@@ -86,10 +84,12 @@ void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp) {
         for (uint32_t plane : {shared::kFilmRed, shared::kFilmGreen, shared::kFilmBlue, shared::kFilmHits}) {
             frame.channels[plane].values[i] /= static_cast<float>(spp);
         }
-        frame.channels[shared::kFilmDepth].values[i] = hits[i] > 0.0f ? frame.channels[shared::kFilmDepth].values[i] / hits[i] : 0.0f;
+        frame.channels[shared::kFilmDepth].values[i] =
+            hits[i] > 0.0f ? frame.channels[shared::kFilmDepth].values[i] / hits[i] : 0.0f;
     }
     for (uint32_t light = 0; light < frame.light_count; ++light) {
-        Channel mean = channel("visibility." + std::to_string(light), film.data() + (shared::kFilmVisibility + light) * pixels, pixels);
+        Channel mean =
+            channel("visibility." + std::to_string(light), film.data() + (shared::kFilmVisibility + light) * pixels, pixels);
         Channel error{"visibility_var." + std::to_string(light), std::vector<float>(pixels)};
         for (size_t i = 0; i < pixels; ++i) {
             double n = hits[i];
@@ -110,10 +110,12 @@ void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, cons
         uint32_t item = static_cast<uint32_t>(slot / shared::kTileTexels);
         uint32_t tile = batch.tile_first + item / batch.stratum_count;
         uint32_t s = batch.stratum_first + item % batch.stratum_count;
-        uint32_t x = tile % grid.tiles_x * shared::kTileSize + slot % 8, y = tile / grid.tiles_x * shared::kTileSize + slot / 8 % 8;
+        uint32_t x = tile % grid.tiles_x * shared::kTileSize + slot % 8,
+                 y = tile / grid.tiles_x * shared::kTileSize + slot / 8 % 8;
         if (x >= frame.width || y >= frame.height || hits[slot] == shared::kNone) continue;
         uint32_t lights = frame.light_count == 32 ? ~0u : (1u << frame.light_count) - 1u;
-        frame.samples[(size_t(y) * frame.width + x) * spp + s] = {hits[slot] & ~shared::kReversed, depths[slot], lit[slot] & lights};
+        frame.samples[(size_t(y) * frame.width + x) * spp + s] = {hits[slot] & ~shared::kReversed, depths[slot],
+                                                                  lit[slot] & lights};
     }
 }
 
@@ -135,12 +137,15 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 const DeviceDescription& Renderer::device() const { return impl_->device.description(); }
 
-Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings, const Progress& progress) {
+Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
+                       const Progress& progress) {
     auto start = std::chrono::steady_clock::now();
     check(scene, poses, settings);
     gpu::Device& device = impl_->device;
     Programs& programs = impl_->programs;
-    Layout layout = find_layout(settings.layout);
+    const Method& method = find_method(settings.method);
+    const std::string raster = choose_raster(method, settings.raster);
+    const Layout layout = with_ranges(find_layout(settings.layout), method.exit_depth);
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;
     device.set_budget(budget);
@@ -149,6 +154,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     frame.width = settings.width;
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
+    frame.effective = {{"method", method.name}, {"raster", raster}, {"layout", layout.name}};
 
     // The scene, posed.
     Bounds bounds = bounds_of(scene, poses);
@@ -157,7 +163,8 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
 
     // The camera's prisms.
     View view = camera_view(scene.cameras[settings.camera], poses, settings.camera, settings.width, settings.height);
-    Bins bins = bin_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, is_still(poses)));
+    Bins bins =
+        bin_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, is_still(poses)));
 
     // Each light's prisms, and how many ranges they have.
     std::vector<LightSide> sides;
@@ -169,15 +176,21 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         sides.push_back(std::move(side));
     }
     for (LightSide& side : sides) {
-        side.bins = bin_prisms(device, programs, geometry, side.view, light_cells(geometry.segment_count, is_still(poses)));
-        side.s_buffer = std::make_unique<SBuffer>(device, programs, geometry, side.bins, layout, "raster/conservative", side.view.orthographic);
+        side.bins = bin_prisms(device, programs, geometry, side.view,
+                               light_cells(method.light_cells, geometry.segment_count, is_still(poses)));
+        side.longest = uint64_t(side.bins.longest) * method.ranges_per_prism;
+        side.s_buffer = std::make_unique<SBuffer>(device, programs, geometry, side.bins, layout, "raster/" + raster,
+                                                  side.view.orthographic);
         frame.stats.counts["bin_entries." + std::to_string(side.light_ix)] = side.bins.entry_count;
         frame.stats.counts["ranges." + std::to_string(side.light_ix)] = side.s_buffer->range_count();
+        frame.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
     }
 
     // The samples, a batch at a time. An S-buffer that fits is filled once, else in bands for every batch.
+    frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget);
-    Sampler sampler(device, programs, geometry, view, bins, layout.name, settings.spp, settings.seed, frame.light_count, most_slots, settings.keep_samples);
+    Sampler sampler(device, programs, geometry, view, bins, method.shadow_stage + "@" + layout.name, settings.spp,
+                    settings.seed, frame.light_count, most_slots, settings.keep_samples);
     uint64_t left = budget - std::min(budget, device.live_bytes());
     for (LightSide& side : sides) {
         side.bands = side.s_buffer->bands(left / sides.size());
@@ -204,7 +217,6 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     frame.stats.counts = std::move(counts);
     frame.stats.counts["triangles"] = geometry.triangle_count;
     frame.stats.counts["prisms"] = uint64_t(geometry.triangle_count) * geometry.segment_count;
-    frame.stats.counts["camera_cells"] = bins.grid.cell_count;
     frame.stats.counts["bin_entries.camera"] = bins.entry_count;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
     frame.stats.counts["hits"] = sampler.hit_count();

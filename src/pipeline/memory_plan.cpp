@@ -41,7 +41,10 @@ uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still) {
     return std::max(1u, kFewestCells / segments) * segments;
 }
 
-uint32_t light_cells(uint32_t segments, bool still) { return still ? segments : std::max(1u, kLightCells / segments) * segments; }
+uint32_t light_cells(Method::LightCells rule, uint32_t segments, bool still) {
+    if (still || rule == Method::LightCells::segments) return segments;
+    return std::max(1u, kLightCells / segments) * segments;
+}
 
 uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget) {
     uint64_t all = uint64_t(grid.tiles_x) * grid.tiles_y * spp * shared::kTileTexels;
@@ -57,7 +60,8 @@ std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uin
     uint32_t tile_step = static_cast<uint32_t>(std::min<uint64_t>(tiles, items / strata));
     std::vector<Batch> batches;
     for (uint32_t tile = 0; tile < tiles; tile += tile_step) {
-        for (uint32_t s = 0; s < spp; s += strata) batches.push_back({tile, std::min(tile_step, tiles - tile), s, std::min(strata, spp - s)});
+        for (uint32_t s = 0; s < spp; s += strata)
+            batches.push_back({tile, std::min(tile_step, tiles - tile), s, std::min(strata, spp - s)});
     }
     return batches;
 }

@@ -5,6 +5,7 @@
 #include <gnomon/scene.hpp>
 #include <vector>
 
+#include "methods/method.hpp"
 #include "stages/sample.hpp"
 
 namespace gnomon {
@@ -12,11 +13,12 @@ namespace gnomon {
 /// Nothing moves between the poses: no vertex, camera or light.
 bool is_still(const std::vector<Pose>& poses);
 
-/// Cells of time in which the camera's prisms are listed: a multiple of the segments; where possible a divisor of spp, so that each stratum lies in one cell.
+/// Cells of time in which the camera's prisms are listed: a multiple of the segments; where possible a divisor of spp, so that
+/// each stratum lies in one cell.
 uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);
 
 /// Cells of time of a light's S-buffer.
-uint32_t light_cells(uint32_t segments, bool still);
+uint32_t light_cells(Method::LightCells rule, uint32_t segments, bool still);
 
 /// Most slots of one batch, so that its buffers fit into the budget and into one binding.
 uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget);

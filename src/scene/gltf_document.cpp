@@ -111,6 +111,10 @@ json parser_input(const json& document, const std::vector<AccessorInfo>& accesso
         if (key != "buffers" && key != "images") input[key] = value;
     }
     strip(input);
+    // tinygltf copies an animation's extensions into each of its samplers, and gnomon reads none.
+    if (const auto animations = input.find("animations"); animations != input.end()) {
+        for (json& animation : *animations) animation.erase("extensions");
+    }
     if (accessors.empty()) return input;
     json& views = input["bufferViews"];
     if (views.is_null()) views = json::array();

@@ -26,14 +26,15 @@ std::vector<float> srgb_table() {
 
 }  // namespace
 
-Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins, const std::string& layout, uint32_t spp,
-                 uint32_t seed, uint32_t light_count, uint64_t most_slots, bool depths)
+Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
+                 const std::string& shadow_stage, uint32_t spp, uint32_t seed, uint32_t light_count, uint64_t most_slots,
+                 bool depths)
     : device_(device),
       programs_(programs),
       geometry_(geometry),
       view_(view),
       bins_(bins),
-      layout_(layout),
+      shadow_stage_(shadow_stage),
       spp_(spp),
       seed_(seed),
       light_count_(light_count),
@@ -67,18 +68,19 @@ void Sampler::trace(const Batch& batch) {
                                     {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                     {"Hits", &hits_},
                                     {"Ticket", &ticket_}}),
-                          shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count, spp_, seed_, first,
-                                              view_.depth_near, view_.depth_far},
+                          shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first,
+                                              batch.stratum_count, spp_, seed_, first, view_.depth_near, view_.depth_far},
                           groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
     }
     recorder.fill("sample/compact", lit_, 0xffffffffu);
     recorder.fill("sample/compact", runs_, 0);
-    recorder.dispatch("sample/compact", programs_.get("sample/count_hits"), bindings({{"hits", &hits_, Texel::rgba32_uint}, {"Runs", &runs_}}),
-                      shared::CompactParams{run_count}, groups_of(run_count, 64));
+    recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
+                      bindings({{"hits", &hits_, Texel::rgba32_uint}, {"Runs", &runs_}}), shared::CompactParams{run_count},
+                      groups_of(run_count, 64));
     Scan scan = record_scan(device_, programs_, recorder, runs_, run_count);
     recorder.dispatch("sample/compact", programs_.get("sample/compact"),
-                      bindings({{"hits", &hits_, Texel::rgba32_uint}, {"runs", &runs_, Texel::r32_uint}, {"Queue", &queue_}}), shared::CompactParams{run_count},
-                      groups_of(run_count, 64));
+                      bindings({{"hits", &hits_, Texel::rgba32_uint}, {"runs", &runs_, Texel::r32_uint}, {"Queue", &queue_}}),
+                      shared::CompactParams{run_count}, groups_of(run_count, 64));
     recorder.submit();
     queue_count_ = gpu::download_vector<uint32_t>(device_, runs_, 1, uint64_t(run_count) * 4)[0];
     hit_total_ += queue_count_;
@@ -86,7 +88,7 @@ void Sampler::trace(const Batch& batch) {
 
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
     if (queue_count_ == 0) return;
-    uint32_t parts = static_cast<uint32_t>(groups_of(std::max(1u, light.bins.longest), shared::kListChunk));
+    uint32_t parts = static_cast<uint32_t>(groups_of(std::max<uint64_t>(1, light.longest), shared::kListChunk));
     if (parts > 1 || !iterators_) {
         uint64_t bytes = parts > 1 ? hits_.bytes() * 2 : 8;
         if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
@@ -124,9 +126,10 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     band.item_count,
                                     light.s_buffer->range_base(),
                                     part};
-        recorder.dispatch("sample/shadow",
-                          programs_.get("sample/shadow@" + layout_, {light.view.orthographic, view_.orthographic, straddle_, true, parts > 1}), all, params,
-                          groups_of(queue_count_, 64));
+        recorder.dispatch(
+            "sample/shadow",
+            programs_.get(shadow_stage_, {light.view.orthographic, view_.orthographic, straddle_, true, parts > 1}), all,
+            params, groups_of(queue_count_, 64));
     }
     recorder.submit();
     uint64_t blocks = groups_of(queue_count_, kCountersHits);
@@ -140,23 +143,24 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
 
 void Sampler::shade(const gpu::Buffer& lights) {
     gpu::Recorder recorder(device_);
-    recorder.dispatch("sample/shade", programs_.get("sample/shade", {view_.orthographic, straddle_, depths_, geometry_.textured}),
-                      bindings({{"hits", &hits_, Texel::r32_uint},
-                                {"lit", &lit_, Texel::r32_uint},
-                                {"triangles", &geometry_.triangles, Texel::rgba32_uint},
-                                {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                {"positions", &geometry_.positions, Texel::rgba32_float},
-                                {"normals", &geometry_.normals, Texel::rgba32_float},
-                                {"attributes", &geometry_.attributes, Texel::rgba32_float},
-                                {"materials", &geometry_.materials, Texel::rgba32_uint},
-                                {"texels", &geometry_.texels, Texel::r32_uint},
-                                {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
-                                {"lights", &lights, Texel::rgba32_float},
-                                {"Film", &film_},
-                                {"Depths", &depth_values_}}),
-                      shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count, spp_, seed_,
-                                          light_count_, static_cast<uint32_t>(view_.keys.size())},
-                      batch_.tile_count);
+    recorder.dispatch(
+        "sample/shade", programs_.get("sample/shade", {view_.orthographic, straddle_, depths_, geometry_.textured}),
+        bindings({{"hits", &hits_, Texel::r32_uint},
+                  {"lit", &lit_, Texel::r32_uint},
+                  {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                  {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                  {"positions", &geometry_.positions, Texel::rgba32_float},
+                  {"normals", &geometry_.normals, Texel::rgba32_float},
+                  {"attributes", &geometry_.attributes, Texel::rgba32_float},
+                  {"materials", &geometry_.materials, Texel::rgba32_uint},
+                  {"texels", &geometry_.texels, Texel::r32_uint},
+                  {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
+                  {"lights", &lights, Texel::rgba32_float},
+                  {"Film", &film_},
+                  {"Depths", &depth_values_}}),
+        shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count, spp_,
+                            seed_, light_count_, static_cast<uint32_t>(view_.keys.size())},
+        batch_.tile_count);
     recorder.submit();
 }
 
@@ -165,8 +169,12 @@ std::vector<float> Sampler::film() const {
     return gpu::download_vector<float>(device_, film_, pixels * (shared::kFilmVisibility + light_count_));
 }
 
-std::vector<uint32_t> Sampler::batch_hits() const { return gpu::download_vector<uint32_t>(device_, hits_, batch_.slot_count()); }
+std::vector<uint32_t> Sampler::batch_hits() const {
+    return gpu::download_vector<uint32_t>(device_, hits_, batch_.slot_count());
+}
 std::vector<uint32_t> Sampler::batch_lit() const { return gpu::download_vector<uint32_t>(device_, lit_, batch_.slot_count()); }
-std::vector<float> Sampler::batch_depths() const { return gpu::download_vector<float>(device_, depth_values_, batch_.slot_count()); }
+std::vector<float> Sampler::batch_depths() const {
+    return gpu::download_vector<float>(device_, depth_values_, batch_.slot_count());
+}
 
 }  // namespace gnomon

@@ -21,6 +21,7 @@ struct LightSide {
     uint32_t light_ix = 0;
     View view;
     Bins bins;
+    uint64_t longest = 0;  ///< Most ranges of one list.
     std::unique_ptr<SBuffer> s_buffer;
     std::vector<Band> bands;
 };
@@ -33,9 +34,10 @@ struct ShadowCounts {
 
 class Sampler {
 public:
-    /// counting: fill shadow_counts(), at a cost of some percent. depths: keep each sample's depth.
-    Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins, const std::string& layout, uint32_t spp,
-            uint32_t seed, uint32_t light_count, uint64_t most_slots, bool depths);
+    /// shadow_stage: the method's test, compiled for the layout. depths: keep each sample's depth.
+    Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
+            const std::string& shadow_stage, uint32_t spp, uint32_t seed, uint32_t light_count, uint64_t most_slots,
+            bool depths);
 
     /// Forget the batch before: find the nearest triangle of each sample, then queue those that hit.
     void trace(const Batch& batch);
@@ -48,7 +50,7 @@ public:
     uint64_t hit_count() const { return hit_total_; }
     const ShadowCounts& shadow_counts() const { return counts_; }
 
-    std::vector<uint32_t> batch_hits() const;   ///< Per slot.
+    std::vector<uint32_t> batch_hits() const;  ///< Per slot.
     std::vector<uint32_t> batch_lit() const;
     std::vector<float> batch_depths() const;
 
@@ -58,7 +60,7 @@ private:
     const Geometry& geometry_;
     const View& view_;
     const Bins& bins_;
-    std::string layout_;
+    std::string shadow_stage_;
     uint32_t spp_, seed_, light_count_;
     bool straddle_, depths_;
     Batch batch_;

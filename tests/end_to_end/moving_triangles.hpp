@@ -11,12 +11,16 @@ namespace gnomon::test {
 
 using Corners = std::array<glm::vec3, 3>;
 
-/// A scene and its poses. Each triangle has a palette matrix of its own.
-struct MovingTriangles {
+/// A scene in its poses, ready to be rendered.
+struct PosedScene {
     Scene scene;
     std::vector<Pose> poses;
+};
 
-    explicit MovingTriangles(uint32_t segments) : poses(segments + 1) {
+/// Each triangle has a palette matrix of its own.
+struct MovingTriangles : PosedScene {
+    explicit MovingTriangles(uint32_t segments) {
+        poses.resize(segments + 1);
         scene.morphs.emplace_back();
         scene.materials.emplace_back();
     }

@@ -3,6 +3,7 @@
 #include "oracle/moving_triangle.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "oracle/polynomial.hpp"
 
@@ -17,8 +18,22 @@ std::array<glm::dvec4, 3> vertices_at(const MovingTriangle& triangle, double s) 
 
 glm::dvec3 without_depth(const glm::dvec4& p) { return {p.x, p.y, p.w}; }
 
-bool turns_clockwise(const std::array<glm::dvec4, 3>& v) {
-    return glm::dot(without_depth(v[0]), glm::cross(without_depth(v[1]), without_depth(v[2]))) > 0.0;
+// dot(a, cross(b, c)); zero where it is lost in the rounding of its terms.
+double triple(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    constexpr double kNoise = 0x1p-48;
+    const glm::dvec3 sizes(std::abs(b.y * c.z) + std::abs(b.z * c.y), std::abs(b.z * c.x) + std::abs(b.x * c.z), std::abs(b.x * c.y) + std::abs(b.y * c.x));
+    const double value = glm::dot(a, glm::cross(b, c));
+    return std::abs(value) > kNoise * glm::dot(glm::abs(a), sizes) ? value : 0.0;
+}
+
+// Positive for vertices that go clockwise as seen from the origin. Zero also where an edge is as short as its own rounding.
+double volume_of(const std::array<glm::dvec4, 3>& v) {
+    constexpr double kNoise = 0x1p-45;
+    const glm::dvec3 p = without_depth(v[0]), to_1 = without_depth(v[1]) - p, to_2 = without_depth(v[2]) - p;
+    const glm::dvec3 size = glm::max(glm::abs(p), glm::max(glm::abs(without_depth(v[1])), glm::abs(without_depth(v[2]))));
+    const double value = triple(p, to_1, to_2);
+    const glm::dvec3 area_noise = kNoise * (glm::length(to_1) + glm::length(to_2)) * size;
+    return std::abs(value) > glm::dot(glm::abs(p), area_noise) ? value : 0.0;
 }
 
 // Keeps the side of the plane through the origin on which dot(normal, p) > 0.
@@ -41,13 +56,13 @@ std::optional<Surface> surface_at(const MovingTriangle& triangle, double x, doub
     const glm::dvec3 ray(x, y, 1.0), corner = without_depth(v[0]);
     const glm::dvec3 to_1 = without_depth(v[1]) - corner, to_2 = without_depth(v[2]) - corner;
     const glm::dvec3 p = glm::cross(ray, to_2), q = glm::cross(-corner, to_1);
-    const double determinant = glm::dot(to_1, p);
-    if (determinant == 0.0) return std::nullopt;
+    const double determinant = glm::dot(to_1, p), volume = volume_of(v);
+    if (determinant == 0.0 || volume == 0.0) return std::nullopt;
     const double b1 = glm::dot(-corner, p) / determinant, b2 = glm::dot(ray, q) / determinant;
     const double w = glm::dot(to_2, q) / determinant;
     if (b1 < 0.0 || b2 < 0.0 || b1 + b2 > 1.0 || w <= 0.0) return std::nullopt;
     const double z = (1.0 - b1 - b2) * v[0].z + b1 * v[1].z + b2 * v[2].z;
-    return Surface{z / w, turns_clockwise(v)};
+    return Surface{z / w, volume > 0.0};
 }
 
 std::vector<Stay> stays_at(const MovingTriangle& triangle, double x, double y) {
@@ -97,7 +112,9 @@ std::optional<bool> orientation_in(const MovingTriangle& triangle, const Box& bo
         polygon = clip(polygon, normal);
     }
     if (polygon.size() < 3) return std::nullopt;
-    return turns_clockwise(v);
+    const double volume = volume_of(v);
+    if (volume == 0.0) return std::nullopt;
+    return volume > 0.0;
 }
 
 std::vector<Seen> seen_at(const std::vector<MovingTriangle>& triangles, double x, double y, double s, double low, double high) {

@@ -33,7 +33,8 @@ struct Stay {
     bool positive = false;
 };
 
-/// At the point (x, y) of the image and local time s. A triangle without area is never seen.
+/// At the point (x, y) of the image and local time s. A triangle without area is never seen, nor is one whose area
+/// is lost in the rounding of double.
 std::optional<Surface> surface_at(const MovingTriangle& triangle, double x, double y, double s);
 
 /// All stays over a point, ascending. Touches of zero length are left out.

@@ -62,13 +62,13 @@ void log_statistics(const FrameStats& stats) {
 void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions& options, const io::Json& settings,
                    const std::vector<std::string>& warnings) {
     std::vector<std::string> outputs = {job.exr.string()};
-    io::write_exr(job.exr, frame.width, frame.height, frame.channels, io::exr_attributes(settings));
+    io::write_exr(job.exr, frame.width, frame.height, frame.channels, io::exr_attributes(settings, frame.effective));
     if (job.png) {
         io::write_png(*job.png, frame.width, frame.height, io::tone_map(frame.channels, options.exposure));
         outputs.push_back(job.png->string());
     }
     if (!job.json.empty()) {
-        const io::Json json = io::render_json(frame.stats, settings, outputs, warnings);
+        const io::Json json = io::render_json(frame, settings, outputs, warnings);
         const bool one_of_several = job.json == "-" && job.number;  // Then each is on a line of its own.
         write_json(job.json, json, one_of_several ? -1 : 2);
     }

@@ -7,12 +7,6 @@
 
 namespace gnomon::reference {
 
-KeyTime key_time(double t, uint32_t segment_count) {
-    const double keys = t * segment_count;
-    const uint32_t segment = std::min(static_cast<uint32_t>(keys), segment_count - 1);
-    return {segment, keys - segment};
-}
-
 RigidMotion::RigidMotion(const std::vector<Rigid>& keys) {
     for (size_t k = 0; k + 1 < keys.size(); ++k) {
         const Rigid& a = keys[k];

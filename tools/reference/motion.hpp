@@ -2,6 +2,7 @@
 // Where things are at a shutter time, in double: rigid cameras and lights, and the corners of triangles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <gnomon/scene.hpp>
 #include <vector>
@@ -14,7 +15,12 @@ struct KeyTime {
     double s = 0.0;
 };
 
-KeyTime key_time(double t, uint32_t segment_count);
+/// t: in the shutter, 0 to 1.
+inline KeyTime key_time(double t, uint32_t segment_count) {
+    const double keys = t * segment_count;
+    const uint32_t segment = std::min(static_cast<uint32_t>(keys), segment_count - 1);
+    return {segment, keys - segment};
+}
 
 /// A camera or a light between its keys: translation linear, rotation spherical by the shorter way.
 class RigidMotion {

@@ -16,8 +16,8 @@ struct ReferenceSettings {
     uint32_t spp = 16;      ///< Samples per pixel, 1 to 65536.
     uint32_t seed = 0;
     uint32_t camera = 0;           ///< Index into Scene::cameras.
-    uint32_t threads = 0;          ///< 0: as many as the hardware runs. The picture does not depend on it.
-    uint32_t embree_segments = 1;  ///< Embree gets the motion in at least this many: fast motion traces faster.
+    uint32_t threads = 0;          ///< Up to 1024; 0: as many as the hardware runs. Same picture.
+    uint32_t embree_segments = 1;  ///< Embree gets at least this many: fast motion traces faster.
     bool keep_samples = false;     ///< Fill Frame::samples.
     /// true: hit points and the distances of occluders are computed in double, and R G B are shaded.
     /// false: for speed; what Embree finds in float is taken as it is, and the frame has no R G B.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // S-buffer layout "linked": a linked list per texel and cell, nodes from a global counter in the order of arrival.
 // Based on: Yang et al. 2010, "Real-time concurrent linked list construction on the GPU"; the papers of 2017 and 2018 use it.
-// Memory: 16 bytes per range and 4 for its link, 4 bytes per list.
+// Memory: 16 bytes per range (20 with the depth at its exit) and 4 for its link, 4 bytes per list.
 
 #ifdef LAYOUT_WRITE
 layout(binding = 16, scalar) buffer ListHeads { uint list_heads[]; };
@@ -10,11 +10,19 @@ layout(binding = 18, scalar) writeonly buffer Links { uint links[]; };
 layout(binding = 19, scalar) buffer NodeCount { uint node_count; };
 
 void layout_count(uint list, uint count, bool first) {}
-void layout_emit(uint list, vec4 range) {
+// The place of the new node.
+uint append(uint list, vec4 range) {
     uint node = atomicAdd(node_count, 1u);
-    ranges[node - range_base()] = range;
-    links[node - range_base()] = atomicExchange(list_heads[list], node);
+    uint place = node - range_base();
+    ranges[place] = range;
+    links[place] = atomicExchange(list_heads[list], node);
+    return place;
 }
+void layout_emit(uint list, vec4 range) { append(list, range); }
+#ifdef GN_RANGE_EXIT
+layout(binding = 20, scalar) writeonly buffer RangeExits { float range_exits[]; };
+void layout_emit(uint list, vec4 range, float exit_depth) { range_exits[append(list, range)] = exit_depth; }
+#endif
 #endif
 
 #ifdef LAYOUT_READ
@@ -31,4 +39,8 @@ vec4 layout_next(inout ListIterator it) {
     it.x = texelFetch(links, node).x;
     return texelFetch(ranges, node);
 }
+#ifdef GN_RANGE_EXIT
+layout(binding = 19) uniform samplerBuffer range_exits;
+float layout_exit_depth(ListIterator it) { return texelFetch(range_exits, int(it.x - range_base())).x; }
+#endif
 #endif

@@ -12,17 +12,19 @@ namespace gnomon::test {
 using io::Json;
 
 TEST(Report, RenderDocument) {
-    FrameStats stats;
+    Frame frame;
+    frame.effective = {{"raster", "conservative"}};
+    FrameStats& stats = frame.stats;
     stats.stages = {{"setup", 0.5, 2}, {"bin", 0.25, 1}};
     stats.buffer_bytes = {{"prisms", 4096}};
     stats.peak_bytes = 1ull << 40;
     stats.counts = {{"ranges", 123}};
     stats.wall_seconds = 1.5;
     stats.device = "llvmpipe";
-    const Json json = io::render_json(stats, {{"spp", 16}}, {"a.exr", "a.png"}, {"no camera"});
+    const Json json = io::render_json(frame, {{"spp", 16}}, {"a.exr", "a.png"}, {"no camera"});
     EXPECT_EQ(json, Json::parse(R"({
         "schema": "gnomon.render", "schema_version": 1, "version": ")" GNOMON_VERSION R"(", "device": "llvmpipe",
-        "settings": {"spp": 16},
+        "settings": {"spp": 16}, "effective": {"raster": "conservative"},
         "stages": [{"name": "setup", "seconds": 0.5, "dispatches": 2}, {"name": "bin", "seconds": 0.25, "dispatches": 1}],
         "buffers": {"prisms": 4096}, "peak_bytes": 1099511627776, "counts": {"ranges": 123}, "wall_seconds": 1.5,
         "outputs": ["a.exr", "a.png"], "warnings": ["no camera"]})"));
@@ -31,6 +33,7 @@ TEST(Report, RenderDocument) {
 TEST(Report, NothingMeansEmptyListsAndObjects) {
     const Json json = io::render_json({}, Json::object(), {}, {});
     EXPECT_TRUE(json["stages"].is_array());
+    EXPECT_TRUE(json["effective"].is_object());
     EXPECT_TRUE(json["buffers"].is_object());
     EXPECT_TRUE(json["counts"].is_object());
     EXPECT_TRUE(json["outputs"].is_array());
@@ -54,9 +57,13 @@ TEST(Report, EverySettingIsThere) {
 }
 
 TEST(Report, AttributesAreText) {
-    const auto attributes = io::exr_attributes({{"spp", 16}, {"method", "exact"}, {"shutter_close", 0.0208333}, {"on", true}});
-    const std::map<std::string, std::string> expected = {
-        {"gnomon:spp", "16"}, {"gnomon:method", "exact"}, {"gnomon:shutter_close", "0.0208333"}, {"gnomon:on", "true"}};
+    const auto attributes = io::exr_attributes({{"spp", 16}, {"method", "exact"}, {"shutter_close", 0.0208333}, {"on", true}},
+                                               {{"raster", "analytic"}});
+    const std::map<std::string, std::string> expected = {{"gnomon:spp", "16"},
+                                                         {"gnomon:method", "exact"},
+                                                         {"gnomon:shutter_close", "0.0208333"},
+                                                         {"gnomon:on", "true"},
+                                                         {"gnomon:effective.raster", "analytic"}};
     EXPECT_EQ(attributes, expected);
 }
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the shadow tests of all methods share: their bindings, the hit in the light's view, their counters.
+#include "common/stage.glsl"
+#include "math/range.h"
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_arithmetic : require
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kOrthographic = false;        // The light's view.
+layout(constant_id = 1) const bool kCameraOrthographic = false;
+layout(constant_id = 2) const bool kStraddle = false;            // As in sample/trace.
+layout(constant_id = 3) const bool kCount = false;               // Fill ShadowCounts.
+layout(constant_id = 4) const bool kResume = false;              // Lists are walked in parts of kListChunk.
+layout(binding = 0) uniform usamplerBuffer queue;
+layout(binding = 1) uniform usamplerBuffer hits;
+layout(binding = 2) uniform usamplerBuffer triangles;
+layout(binding = 3) uniform samplerBuffer raster_vertices;
+layout(binding = 4) uniform samplerBuffer light_vertices;
+layout(binding = 5, scalar) buffer Lit { uint lit[]; };
+layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
+layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
+layout(push_constant, scalar) uniform Push { ShadowParams params; };
+#include "common/triangle.glsl"
+#include "common/batch.glsl"
+#include "common/receiver.glsl"
+uint range_base() { return params.range_first; }
+#define ListIterator uvec2
+#define LAYOUT_READ
+#include "layout.glsl"
+
+vec4 light_vertex_at(uint vertex, Receiver h) {
+    int i = int(h.segment * params.camera.vertex_stride + vertex);
+    vec4 a = texelFetch(light_vertices, i);
+    vec4 b = texelFetch(light_vertices, i + int(params.camera.vertex_stride));
+    return vertex_at(a, b - a, h.local_time);
+}
+
+// A hit as the light's view holds it.
+struct ShadowTest {
+    uint slot;
+    uint own;           // The hit's triangle, which does not occlude it.
+    Receiver receiver;
+    vec2 at;            // Raster space of the light's view.
+    float limit;        // Depth from which on nothing occludes: the hit's, less the tolerance along its normal.
+    uint list;          // Of its texel and cell of time.
+    bool here;          // There is such a hit, the light may reach it, and its list is in memory.
+};
+
+// Hit `i` of the queue.
+ShadowTest shadow_test(uint i) {
+    ShadowTest test;
+    bool inside = i < params.hit_count;
+    test.slot = texelFetch(queue, int(min(i, params.hit_count - 1u))).x;
+    test.own = texelFetch(hits, int(test.slot)).x & ~kReversed;
+    Slot s = unpack_slot(test.slot, params.stratum_count);
+    uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
+    Receiver h = fetch_receiver(test.own, pixel, params.stratum_first + s.stratum, params.spp, params.seed, params.camera, kStraddle, kCameraOrthographic);
+
+    // The hit as the light's view holds it: on its own triangle at its own time.
+    vec4 p0 = light_vertex_at(h.vertex.x, h);
+    vec4 p1 = light_vertex_at(h.vertex.y, h);
+    vec4 p2 = light_vertex_at(h.vertex.z, h);
+    vec4 p = h.barycentrics.x * p0 + h.barycentrics.y * p1 + h.barycentrics.z * p2;
+    test.receiver = h;
+    test.at = p.xy / p.w;
+    float depth = p.z / p.w;
+
+    // In the light's own space, metres: the angle between ray and surface turns the tolerance along the normal into one in depth.
+    vec2 scale = 1.0 / vec2(params.scale_x, params.scale_y);
+    vec4 u = p1 - p0, v = p2 - p0;
+    bool in_cone = true;
+    if (kOrthographic) {
+        vec3 n = cross3(vec3(u.xy * scale, u.z), vec3(v.xy * scale, v.z));
+        test.limit = depth - params.tolerance * sqrt(dot(n, n)) / abs(n.z);
+    } else {
+        vec3 q = vec3(p.xy * scale, p.w);
+        vec3 n = cross3(vec3(u.xy * scale, u.w), vec3(v.xy * scale, v.w));
+        test.limit = depth + depth * (params.tolerance * sqrt(dot(n, n)) / abs(dot(n, q)));
+        in_cone = q.z > 0.0 && q.x * q.x + q.y * q.y <= q.z * q.z * params.cone_tan2;
+    }
+
+    uint tx = uint(clamp(floor(test.at.x + 0.5 * float(params.light_width)), 0.0, float(params.light_width - 1u)));
+    uint ty = uint(clamp(floor(test.at.y + 0.5 * float(params.light_height)), 0.0, float(params.light_height - 1u)));
+    uint item = ((ty / kTileSize) * params.light_tiles_x + tx / kTileSize) * params.light_cell_count + cell_of(h.t, params.light_cell_count);
+    test.here = inside && in_cone && item >= params.item_first && item < params.item_first + params.item_count;
+    test.list = item * kTileTexels + (ty & 7u) * kTileSize + (tx & 7u);
+    return test;
+}
+
+void add_shadow_counts(uint i, uint visited, uint tested, bool was_cast) {
+    uint all_visited = subgroupAdd(visited);
+    uint all_tested = subgroupAdd(tested);
+    uint all_cast = subgroupAdd(was_cast ? 1u : 0u);
+    if (subgroupElect()) {
+        uint block = (i / 65536u) * 3u;
+        atomicAdd(shadow_counts[block], all_visited);
+        atomicAdd(shadow_counts[block + 1u], all_tested);
+        atomicAdd(shadow_counts[block + 2u], all_cast);
+    }
+}

@@ -1,0 +1,91 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: the ranges of each texel at its centre: all stays of each triangle over it, with the depths at entry and exit. Count, or fill after the layout's own
+//          preparation. Depths are metres along the view's axis. Stays that begin and end behind the eye are none.
+// Reads:   bin_offsets, bin_entries, triangles, raster_vertices
+// Writes:  RangeCounts (64 bits per kCountBlock items), and what the layout says
+// Grid:    one workgroup per tile and cell, one invocation per texel
+// Source:  math/interval.h
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "math/interval.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kFill = false;
+layout(constant_id = 1) const bool kOrthographic = false;
+layout(binding = 0) uniform usamplerBuffer bin_offsets;
+layout(binding = 1) uniform usamplerBuffer bin_entries;
+layout(binding = 2) uniform usamplerBuffer triangles;
+layout(binding = 3) uniform samplerBuffer raster_vertices;
+layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
+layout(binding = 5, scalar) buffer Ticket { uint ticket; };
+layout(push_constant, scalar) uniform Push { RasterParams params; };
+#include "common/triangle.glsl"
+#include "common/cell.glsl"
+#include "common/ticket.glsl"
+#include "common/range_count.glsl"
+uint range_base() { return params.range_first; }
+#define GN_RANGE_EXIT
+#define LAYOUT_WRITE
+#include "layout.glsl"
+
+void main() {
+    uint number = take_ticket();
+    uint item = params.item_first + min(number, params.item_count - 1u);
+    uint texel = gl_LocalInvocationID.x;
+    ViewGrid grid = params.grid;
+    uint tile = item / grid.cell_count;
+    uint cell = item - tile * grid.cell_count;
+    uint tile_y = tile / grid.tiles_x;
+    uint tile_x = tile - tile_y * grid.tiles_x;
+    uint column = tile_x * kTileSize + (texel & 7u);
+    uint row = tile_y * kTileSize + (texel >> 3u);
+    bool inside = number < params.item_count && column < grid.width && row < grid.height;
+    float x = float(column) + 0.5 - 0.5 * float(grid.width);
+    float y = float(row) + 0.5 - 0.5 * float(grid.height);
+    uint key_first = segment_of_cell(grid, cell) * grid.vertex_stride;
+    vec2 span = cell_span(grid, cell);
+    float cell_start = float(cell);
+    float per_cell = 1.0 / float(grid.cell_count);
+
+    uint k = texelFetch(bin_offsets, int(item)).x + params.list_first;
+    uint end = min(texelFetch(bin_offsets, int(item + 1u)).x, k + kListChunk);
+    uint list = (item - params.item_first) * kTileTexels + texel;
+    uint count = 0u;
+#ifdef LAYOUT_CURSOR
+    if (kFill && inside) count = layout_cursor(list);
+#endif
+
+    while (k < end) {
+        uint entry = texelFetch(bin_entries, int(k)).x;
+        CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
+        PointPrism prism = point_prism(c, x, y);
+        Stays stays = stays_over(prism);
+        [[unroll]] for (uint j = 0u; j < 4u; ++j) {
+            bool stay = inside && stays.enter[j] < stays.leave[j];
+            float enter_depth = metres_at(prism, c, stays.enter[j], kOrthographic);
+            float exit_depth = metres_at(prism, c, stays.leave[j], kOrthographic);
+            stay = stay && (kOrthographic || enter_depth > 0.0 || exit_depth > 0.0);
+            if (stay) {
+                if (kFill) {
+                    vec4 range = vec4((cell_start + stays.enter[j]) * per_cell, (cell_start + stays.leave[j]) * per_cell, enter_depth, uintBitsToFloat(entry));
+#ifdef LAYOUT_CURSOR
+                    layout_emit(count, range, exit_depth);
+#else
+                    layout_emit(list, range, exit_depth);
+#endif
+                }
+                ++count;
+            }
+        }
+        ++k;
+    }
+    if (!kFill) {
+        if (inside) layout_count(list, count, params.list_first == 0u);
+        add_range_count(item / kCountBlock, inside ? count : 0u);
+    } else {
+#ifdef LAYOUT_CURSOR
+        if (inside) layout_set_cursor(list, count);
+#endif
+    }
+}

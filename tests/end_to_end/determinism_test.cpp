@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture depends on the scene and the samples only: not on threads, layout, memory or how the work was cut up.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <gnomon/error.hpp>
+#include <iostream>
+
+#include "scenes/scene_makers.hpp"
+#include "shapes.hpp"
+
+namespace gnomon::test {
+namespace {
+
+std::filesystem::path small_figure() {
+    return made_file("figure_2000", [](const auto& path) { makers::make_figure(path, {2000, true}); });
+}
+
+// Stages that ran more often when the work was cut up.
+uint64_t dispatches(const Frame& frame, const std::string& stage) {
+    for (const FrameStats::Stage& s : frame.stats.stages) {
+        if (s.name == stage) return s.dispatches;
+    }
+    return 0;
+}
+
+TEST(Determinism, SameBitsTwice) {
+    const PosedScene posed = load_posed(small_figure());
+    const RenderSettings settings = small_settings(90, 70, 16);
+    const uint64_t first = hash_of(shared_renderer().render(posed.scene, posed.poses, settings));
+    EXPECT_EQ(first, hash_of(shared_renderer().render(posed.scene, posed.poses, settings)));
+    EXPECT_EQ(first, hash_of(Renderer().render(posed.scene, posed.poses, settings)));
+    RenderSettings other = settings;
+    other.seed = 1;
+    EXPECT_NE(first, hash_of(shared_renderer().render(posed.scene, posed.poses, other)));
+}
+
+TEST(Determinism, SameBitsWithKeptSamples) {
+    const PosedScene posed = load_posed(small_figure());
+    const RenderSettings settings = small_settings(90, 70, 7);
+    EXPECT_EQ(hash_of(sampled_frame(posed, settings)), hash_of(shared_renderer().render(posed.scene, posed.poses, settings)));
+}
+
+std::string hash_of_child(const std::string& environment, const std::string& layout) {
+    const std::string command =
+        environment + " '" GNOMON_FRAME_HASH "' '" + small_figure().string() + "' 90 70 16 256 " + layout;
+    std::FILE* pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) return "popen failed";
+    std::string text;
+    for (char buffer[256]; std::fgets(buffer, sizeof buffer, pipe) != nullptr;) text += buffer;
+    return pclose(pipe) == 0 ? text : "failed: " + text;
+}
+
+TEST(Determinism, SameBitsWithAnyNumberOfThreadsAndEveryLayout) {
+    const PosedScene posed = load_posed(small_figure());
+    const std::string expected =
+        std::to_string(hash_of(shared_renderer().render(posed.scene, posed.poses, small_settings(90, 70, 16))));
+    // LP_NUM_THREADS is lavapipe's; another driver ignores it and must give the same bits in another process all the more.
+    for (const char* threads : {"LP_NUM_THREADS=0", "LP_NUM_THREADS=1", "LP_NUM_THREADS=2", "LP_NUM_THREADS=5"}) {
+        EXPECT_EQ(hash_of_child(threads, "array"), expected) << threads;
+    }
+    for (const char* threads : {"LP_NUM_THREADS=1", "LP_NUM_THREADS=2"})
+        EXPECT_EQ(hash_of_child(threads, "linked"), expected) << threads;
+}
+
+class Budget : public testing::TestWithParam<const char*> {};
+
+// Smaller and smaller budgets, until it is an error: the same picture in more and more bands and batches.
+TEST_P(Budget, PictureDoesNotDependOnIt) {
+    const PosedScene posed = load_posed(made_file("figure", [](const auto& path) { makers::make_figure(path); }));
+    RenderSettings settings = small_settings(128, 96, 16, 512);
+    settings.layout = GetParam();
+    const Frame whole = shared_renderer().render(posed.scene, posed.poses, settings);
+    uint64_t enough = whole.stats.peak_bytes, too_small = 0;
+    uint64_t most_fills = 0, most_batches = 0;
+    std::string message;
+    for (int i = 0; i < 8; ++i) {
+        settings.memory_budget = (enough + too_small) / 2;
+        try {
+            const Frame frame = shared_renderer().render(posed.scene, posed.poses, settings);
+            EXPECT_EQ(hash_of(frame), hash_of(whole)) << settings.memory_budget;
+            EXPECT_LE(frame.stats.peak_bytes, settings.memory_budget);
+            most_fills = std::max(most_fills, dispatches(frame, "raster/fill"));
+            most_batches = std::max(most_batches, dispatches(frame, "sample/trace"));
+            enough = settings.memory_budget;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::out_of_memory) << error.what();
+            message = error.what();
+            too_small = settings.memory_budget;
+        }
+    }
+    std::cout << "unlimited: " << whole.stats.peak_bytes << " bytes, " << dispatches(whole, "raster/fill") << " fills, "
+              << dispatches(whole, "sample/trace") << " batches; least that works: " << enough << " bytes, " << most_fills
+              << " fills, " << most_batches << " batches; below: " << message << std::endl;
+    EXPECT_GT(most_fills, 2 * dispatches(whole, "raster/fill"));
+    EXPECT_GT(most_batches, 2 * dispatches(whole, "sample/trace"));
+    EXPECT_LT(enough, whole.stats.peak_bytes);
+    EXPECT_THAT(message, testing::HasSubstr("--memory-budget"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Layouts, Budget, testing::Values("array", "linked"),
+                         [](const auto& tested) { return std::string(tested.param); });
+
+// Offsets of all lists of a view, in several cells of time, may take more than one binding holds.
+TEST(Budget, ListsOfManyTexelsAndSegments) {
+    const MovingTriangles scene = still_life(3);
+    const RenderSettings settings = small_settings(32, 24, 4, 4096);
+    const Agreement agreement = agreement_of(scene, settings);
+    EXPECT_EQ(agreement.primary_wrong + agreement.shadow_wrong, 0u) << agreement;
+    EXPECT_GT(agreement.shadow_tests, 0u);
+}
+
+struct Size {
+    uint32_t width, height;
+};
+
+class ImageSize : public testing::TestWithParam<Size> {};
+
+TEST_P(ImageSize, AgreesWithTheReference) {
+    const MovingTriangles scene = still_life(1);
+    const Agreement agreement = agreement_of(scene, small_settings(GetParam().width, GetParam().height, 9));
+    EXPECT_EQ(agreement.samples, uint64_t{GetParam().width} * GetParam().height * 9);
+    EXPECT_EQ(agreement.primary_wrong + agreement.shadow_wrong, 0u) << agreement;
+    EXPECT_LE(agreement.primary_differ + agreement.shadow_differ, 1 + agreement.samples / 5000) << agreement;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ImageSize,
+                         testing::Values(Size{1, 1}, Size{1, 37}, Size{37, 1}, Size{7, 9}, Size{8, 8}, Size{9, 7}, Size{63, 17},
+                                         Size{65, 33}, Size{257, 3}),
+                         [](const auto& tested) {
+                             return std::to_string(tested.param.width) + "x" + std::to_string(tested.param.height);
+                         });
+
+struct Strata {
+    uint32_t spp, segments;
+};
+
+class Samples : public testing::TestWithParam<Strata> {};
+
+// Strata lie in one cell of time or straddle several; a cell of time lies in one segment.
+TEST_P(Samples, AgreeWithTheReference) {
+    const PosedScene posed = load_posed(small_figure(), {"0", GetParam().segments});
+    const Agreement agreement = agreement_of(posed, small_settings(42, 30, GetParam().spp));
+    EXPECT_EQ(agreement.primary_wrong + agreement.shadow_wrong, 0u) << agreement;
+    EXPECT_LE(agreement.primary_differ, 1 + agreement.samples / 5000) << agreement;
+    EXPECT_LE(agreement.shadow_differ, 1 + agreement.shadow_tests / 2500) << agreement;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Samples, testing::ValuesIn([] {
+                             std::vector<Strata> cases;
+                             for (const uint32_t spp : {1u, 2u, 3u, 5u, 7u, 16u, 17u, 20u, 64u, 100u}) {
+                                 for (const uint32_t segments : {1u, 2u, 3u}) cases.push_back({spp, segments});
+                             }
+                             return cases;
+                         }()),
+                         [](const auto& tested) {
+                             return "spp_" + std::to_string(tested.param.spp) + "_segments_" +
+                                    std::to_string(tested.param.segments);
+                         });
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Prints the hash of a frame, for tests that need a process of their own: frame_hash SCENE WIDTH HEIGHT SPP SHADOW_RES LAYOUT.
+#include <cstdlib>
+#include <iostream>
+
+#include "test_scenes.hpp"
+
+int main(int argc, char** argv) {
+    using namespace gnomon;
+    if (argc != 7) return 2;
+    try {
+        const test::PosedScene posed = test::load_posed(argv[1]);
+        const auto number = [&](int i) { return static_cast<uint32_t>(std::strtoul(argv[i], nullptr, 10)); };
+        RenderSettings settings;
+        settings.width = number(2);
+        settings.height = number(3);
+        settings.spp = number(4);
+        settings.shadow_res = number(5);
+        settings.layout = argv[6];
+        std::cout << test::hash_of(test::shared_renderer().render(posed.scene, posed.poses, settings));
+    } catch (const std::exception& error) {
+        std::cerr << error.what() << std::endl;
+        return 1;
+    }
+}

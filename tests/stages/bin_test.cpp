@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Setup and binning: each list holds every prism that the oracle sees in its tile and cell, in the orientation in which it is seen.
+#include "stages/bin.hpp"
+
+#include <cstdio>
+#include <map>
+#include <set>
+
+#include "lists.hpp"
+#include "soup.hpp"
+#include "stage_test.hpp"
+
+namespace gnomon::test {
+namespace {
+
+class BinTest : public StageTest {
+protected:
+    struct Result {
+        Bins bins;
+        std::vector<std::vector<uint32_t>> lists;
+    };
+
+    Result run(const Soup& soup, uint32_t cells) {
+        const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
+        Result result{bin_prisms(device(), programs(), geometry, soup.view(), cells), {}};
+        result.lists = read_bins(device(), result.bins);
+        return result;
+    }
+
+    /// Checks the lists; returns listed entries over needed ones.
+    double expect_complete(const Soup& soup, uint32_t cells) {
+        constexpr int kInstants = 6;
+        const Result result = run(soup, cells);
+        const shared::ViewGrid& grid = result.bins.grid;
+        const uint32_t per_segment = cells / soup.segments();
+        uint64_t listed = 0, needed = 0, missed = 0;
+        size_t longest = 0;
+        for (uint32_t item = 0; item < result.lists.size(); ++item) {
+            const std::set<uint32_t> list(result.lists[item].begin(), result.lists[item].end());
+            EXPECT_EQ(list.size(), result.lists[item].size()) << "an entry twice in list " << item;
+            listed += list.size();
+            longest = std::max(longest, list.size());
+            const uint32_t cell = item % cells, tile = item / cells;
+            const glm::dvec2 lower = 8.0 * glm::dvec2(tile % grid.tiles_x, tile / grid.tiles_x) - 0.5 * glm::dvec2(soup.width, soup.height);
+            for (uint32_t i = 0; i < soup.triangles.size(); ++i) {
+                const oracle::MovingTriangle triangle = soup.triangle(i, cell / per_segment);
+                std::set<uint32_t> entries;
+                for (int step = 0; step <= kInstants; ++step) {
+                    const double s = (cell % per_segment + double(step) / kInstants) / per_segment;
+                    const std::optional<bool> positive = orientation_in(triangle, {lower, lower + 8.0}, s);
+                    if (positive) entries.insert(*positive ? i : i | shared::kReversed);
+                }
+                needed += entries.size();
+                for (uint32_t entry : entries) missed += list.count(entry) == 0 ? 1 : 0;
+            }
+        }
+        EXPECT_EQ(missed, 0u) << "of " << needed;
+        EXPECT_GT(needed, 100u);
+        EXPECT_EQ(listed, result.bins.entry_count);
+        EXPECT_EQ(longest, result.bins.longest);
+        return double(listed) / double(needed);
+    }
+};
+
+TEST_F(BinTest, ListsContainWhatTheOracleSees) {
+    std::mt19937 random(11);
+    for (bool orthographic : {false, true}) {
+        for (const auto& [segments, cells] : std::multimap<uint32_t, uint32_t>{{1, 1}, {1, 4}, {1, 16}, {3, 3}, {3, 6}}) {
+            SCOPED_TRACE(testing::Message() << segments << " segments, " << cells << " cells, orthographic " << orthographic);
+            Soup soup(segments, 70, 45, orthographic);
+            soup.add_prisms(220, random);
+            const double ratio = expect_complete(soup, cells);
+            std::printf("%s, %u segments, %u cells: %.2f entries listed for one needed\n", orthographic ? "orthographic" : "perspective", segments, cells, ratio);
+            EXPECT_LT(ratio, 3.0);
+        }
+    }
+}
+
+TEST_F(BinTest, SmallestImages) {
+    std::mt19937 random(12);
+    for (const glm::uvec2 size : {glm::uvec2(1, 1), glm::uvec2(8, 8), glm::uvec2(9, 1), glm::uvec2(1, 17)}) {
+        Soup soup(1, size.x, size.y, true);
+        soup.add_prisms(300, random);
+        expect_complete(soup, 2);
+    }
+}
+
+TEST_F(BinTest, NothingBehindTheEyeIsListed) {
+    std::mt19937 random(13);
+    Soup soup(1, 64, 64, false);
+    for (int i = 0; i < 200; ++i) soup.add_prism(oracle::make_prism(oracle::PrismKind::behind, false, glm::dvec2(0.0), random));
+    EXPECT_EQ(run(soup, 4).bins.entry_count, 0u);
+}
+
+}  // namespace
+}  // namespace gnomon::test

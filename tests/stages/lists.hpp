@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lists that the device made, read back.
+#pragma once
+
+#include "stages/raster.hpp"
+
+namespace gnomon::test {
+
+/// Entries per tile and cell: tile * cell_count + cell.
+std::vector<std::vector<uint32_t>> read_bins(gpu::Device& device, const Bins& bins);
+
+struct RangeRecord {
+    float enter = 0.0f;
+    float leave = 0.0f;
+    float nearest = 0.0f;
+    uint32_t entry = 0;
+
+    auto operator<=>(const RangeRecord&) const = default;
+};
+
+/// The ranges of a band that is filled, per list (item * kTileTexels + row * 8 + column), items counted from the band's first; each list sorted. Read
+/// by the layout's own GLSL.
+std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBuffer& s_buffer, const std::string& layout, const Band& band);
+
+}  // namespace gnomon::test

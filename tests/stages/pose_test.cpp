@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pose stage computes the bits of posed_positions, which the oracle confirms.
+#include "stages/pose.hpp"
+
+#include <cstring>
+
+#include "oracle/posed.hpp"
+#include "stage_test.hpp"
+#include "support/assets.hpp"
+
+namespace gnomon::test {
+namespace {
+
+class PoseTest : public StageTest {
+protected:
+    void expect_same_bits(const std::filesystem::path& path) {
+        SCOPED_TRACE(path.string());
+        const Scene scene = load_scene(path);
+        ASSERT_FALSE(scene.vertices.empty());
+        const std::vector<Pose> poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.1, 0.35, 2);
+        const Geometry geometry = pose_geometry(device(), programs(), scene, poses);
+        for (size_t k = 0; k < poses.size(); ++k) {
+            const std::vector<glm::vec3> expected = posed_positions(scene, poses[k]);
+            const std::vector<glm::vec4> posed =
+                gpu::download_vector<glm::vec4>(device(), geometry.positions, expected.size(), k * geometry.vertex_stride * sizeof(glm::vec4));
+            uint64_t differing = 0;
+            double largest = 1e-30, worst = 0.0;
+            for (size_t v = 0; v < expected.size(); ++v) {
+                differing += std::memcmp(&posed[v], &expected[v], sizeof(glm::vec3)) != 0 ? 1 : 0;
+                const glm::dvec3 exact = oracle::posed_position(scene, poses[k], v);
+                largest = std::max(largest, glm::length(exact));
+                worst = std::max(worst, glm::length(exact - glm::dvec3(posed[v])));
+            }
+            if (device().limits().is_cpu) {
+                EXPECT_EQ(differing, 0u) << "of " << expected.size() << " vertices at key " << k;
+            }
+            EXPECT_LT(worst, 1e-4 * largest);
+        }
+    }
+};
+
+TEST_F(PoseTest, OwnScenes) {
+    for (const char* name : {"figure", "random-cubes", "tube"}) {
+        expect_same_bits(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / (std::string(name) + ".gltf"));
+    }
+}
+
+class PoseAssetsTest : public PoseTest {};
+
+TEST_F(PoseAssetsTest, SkinsAndMorphTargets) {
+    GN_SKIP_WITHOUT_ASSETS();
+    uint32_t found = 0;
+    for (const char* name : {"CesiumMan", "Fox", "MorphStressTest", "AnimatedMorphCube", "SimpleMorph"}) {
+        const std::filesystem::path folder = assets_folder() / "models" / name;
+        if (!std::filesystem::is_directory(folder)) continue;
+        for (const auto& file : std::filesystem::recursive_directory_iterator(folder)) {
+            const std::string type = file.path().extension().string();
+            if (type != ".gltf" && type != ".glb") continue;
+            expect_same_bits(file.path());
+            ++found;
+            break;
+        }
+    }
+    EXPECT_GT(found, 0u) << "none of the models is in " << assets_folder();
+}
+
+}  // namespace
+}  // namespace gnomon::test
