@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// When does a moving triangle cover a point of a view's image? All times, exactly but for rounding: roots of the three edge functions.
-// Compare: Gribel et al. 2010, "Analytical motion blur rasterization with compression".
+// When does a moving triangle cover a point of a view's image? All times, exactly but for rounding: roots of the three edge
+// functions. Compare: Gribel et al. 2010, "Analytical motion blur rasterization with compression".
 //
 // With u in [0, 1] the time within a cell, an edge function at a point is (math/range.h)
 //     e(u) = (1 - u)^2 start + u (1 - u) mixed + u^2 end
-// In x = u / (1 - u) its roots are those of end x^2 + mixed x + start: with q = -(mixed + sign(mixed) sqrt(mixed^2 - 4 start end)) / 2 they are q / end and start / q, or
+// In x = u / (1 - u) its roots are those of end x^2 + mixed x + start: with q = -(mixed + sign(mixed) sqrt(mixed^2 - 4 start
+// end)) / 2 they are q / end and start / q, or
 //     u = q / (q + end)  and  u = start / (start + q).
-// Wherever one of them is asked for, both of its terms have the same sign: nothing cancels, no denominator vanishes, every root is in [0, 1], and edges that move
-// linearly or not at all are no special cases. The negated function has the same roots, bit for bit, so triangles that share an edge hand over without gap or overlap.
+// Wherever one of them is asked for, both of its terms have the same sign: nothing cancels, no denominator vanishes, every root
+// is in [0, 1], and edges that move linearly or not at all are no special cases. The negated function has the same roots, bit
+// for bit, so triangles that share an edge hand over without gap or overlap.
 #ifndef GNOMON_MATH_INTERVAL_H
 #define GNOMON_MATH_INTERVAL_H
 #include "texel_range.h"
@@ -36,7 +38,8 @@ GN_FN float edge_at(EdgeQuadratic e, float u) {
     return value;
 }
 
-// Times at which a quadratic is >= 0: from lo to hi (never, where lo > hi) but for the open gap from gap_lo to gap_hi (none, where gap_lo >= gap_hi).
+// Times at which a quadratic is >= 0: from lo to hi (never, where lo > hi) but for the open gap from gap_lo to gap_hi (none,
+// where gap_lo >= gap_hi).
 struct EdgeTimes {
     float lo;
     float hi;
@@ -74,7 +77,8 @@ GN_FN EdgeTimes times_not_negative(EdgeQuadratic e) {
     return times;
 }
 
-// Up to four stays over a point: stay i lasts from enter[i] to leave[i], in order of time; there is none where enter[i] >= leave[i]. Touches without length are none.
+// Up to four stays over a point: stay i lasts from enter[i] to leave[i], in order of time; there is none where enter[i] >=
+// leave[i]. Touches without length are none.
 struct Stays {
     vec4 enter;
     vec4 leave;
@@ -113,16 +117,18 @@ GN_FN PointPrism point_prism(CellTriangle c, float x, float y) {
     return p;
 }
 
-// The stays of the triangle in this orientation. A triangle that is one point, whose edge functions are zero everywhere, has none.
+// The stays of the triangle in this orientation. A triangle that is one point, whose edge functions are zero everywhere, has
+// none.
 GN_FN Stays stays_over(PointPrism p) {
     Stays stays = common_times(times_not_negative(p.e0), times_not_negative(p.e1), times_not_negative(p.e2));
-    float size = abs(p.e0.start) + abs(p.e0.mixed) + abs(p.e0.end) + abs(p.e1.start) + abs(p.e1.mixed) + abs(p.e1.end) + abs(p.e2.start) + abs(p.e2.mixed) +
-                 abs(p.e2.end);
+    float size = abs(p.e0.start) + abs(p.e0.mixed) + abs(p.e0.end) + abs(p.e1.start) + abs(p.e1.mixed) + abs(p.e1.end) +
+                 abs(p.e2.start) + abs(p.e2.mixed) + abs(p.e2.end);
     if (!(size > 0.0f)) stays.leave = vec4(-1.0f);
     return stays;
 }
 
-// Metres along the view's axis at time u of a stay. Barycentrics are kept from leaving the triangle by rounding, so the result is within the vertices' metres.
+// Metres along the view's axis at time u of a stay. Barycentrics are kept from leaving the triangle by rounding, so the result
+// is within the vertices' metres.
 GN_FN float metres_at(PointPrism p, CellTriangle c, float u, bool orthographic) {
     float k0 = max(edge_at(p.e0, u), 0.0f), k1 = max(edge_at(p.e1, u), 0.0f), k2 = max(edge_at(p.e2, u), 0.0f);
     vec4 p0 = vertex_at(c.a0, c.b0 - c.a0, u), p1 = vertex_at(c.a1, c.b1 - c.a1, u), p2 = vertex_at(c.a2, c.b2 - c.a2, u);

@@ -23,7 +23,8 @@ struct EdgeBound {
 
 // Rounding, in units of 2^-24 (half an ulp of 1). Coordinates relative to the tile: a product of two of them carries at most 16 roundings, among them those
 // of its vertices' motion and of the exact test that is to be contained. Absolute coordinates (texels up to `extent`) were rounded before the subtraction,
-// there and here: at most 16 roundings of `extent` texels, which shift the triangle and so act like a larger box.
+// there and here: at most 16 roundings of `extent` texels, which shift the triangle and so act like a larger box. (They turn its edges too: of a triangle
+// thinner than those roundings a part of a stay may be missed.)
 const float kProductRounding = 16.0f / 16777216.0f;
 const float kShiftRounding = 16.0f / 16777216.0f;
 

@@ -90,7 +90,7 @@ void main() {
         uint begin = texelFetch(bin_offsets, int(list)).x;
         uint end = texelFetch(bin_offsets, int(list + 1u)).x;
         uint k = begin + params.list_first;
-        end = min(end, k + kListChunk);
+        end = min(end, k + trace_chunk(grid, params.spp));
         do {
             // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
             uint entry = k < end ? texelFetch(bin_entries, int(k)).x : grid.triangle_count;

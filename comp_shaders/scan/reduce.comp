@@ -7,6 +7,7 @@
 // Source:  reduce, then scan; no progress between workgroups is assumed
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
+#include "common/saturate.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kLongest = false;  // The values are elements, not sums of them.
@@ -14,12 +15,6 @@ layout(binding = 0) uniform usamplerBuffer values;
 layout(binding = 1, scalar) writeonly buffer Sums { uint sums[]; };
 layout(binding = 2, scalar) buffer Longest { uint longest; };
 layout(push_constant, scalar) uniform Push { ScanParams params; };
-
-void add(inout uint sum, uint value) {
-    uint carry;
-    uint s = uaddCarry(sum, value, carry);
-    sum = carry != 0u ? 0xffffffffu : s;
-}
 
 void main() {
     uint run = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -30,10 +25,10 @@ void main() {
     uint largest = 0u;
     while (quad < end) {
         uvec4 v = texelFetch(values, int(quad));
-        add(sum, v.x);
-        add(sum, v.y);
-        add(sum, v.z);
-        add(sum, v.w);
+        sum = saturating_add(sum, v.x);
+        sum = saturating_add(sum, v.y);
+        sum = saturating_add(sum, v.z);
+        sum = saturating_add(sum, v.w);
         largest = max(largest, max(max(v.x, v.y), max(v.z, v.w)));
         ++quad;
     }

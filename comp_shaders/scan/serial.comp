@@ -6,6 +6,7 @@
 // Grid:    one invocation
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
+#include "common/saturate.glsl"
 
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const bool kLongest = false;  // The values are elements, not sums of them.
@@ -22,9 +23,7 @@ void main() {
         uint value = texelFetch(values, int(i)).x;
         result[i] = sum;
         largest = max(largest, value);
-        uint carry;
-        uint s = uaddCarry(sum, value, carry);
-        sum = carry != 0u ? 0xffffffffu : s;
+        sum = saturating_add(sum, value);
         ++i;
     }
     result[params.count] = sum;

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: second half of an exclusive prefix sum, in place: each run from the sum of all runs before it. The total goes behind the last element.
 // Reads:   values, sums (scanned)
-// Writes:  Values (count + 1)
+// Writes:  Values (count + 1; 0xffffffff where a sum does not fit)
 // Grid:    one invocation per run
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
+#include "common/saturate.glsl"
 
 layout(local_size_x = 64) in;
 layout(binding = 0) uniform usamplerBuffer values;
@@ -21,11 +22,15 @@ void main() {
     uint i = first;
     while (i < end) {
         uvec4 v = texelFetch(values, int(i / 4u));
-        uvec4 before = uvec4(sum, sum + v.x, sum + v.x + v.y, sum + v.x + v.y + v.z);
+        uvec4 before;
+        before.x = sum;
+        before.y = saturating_add(before.x, v.x);
+        before.z = saturating_add(before.y, v.y);
+        before.w = saturating_add(before.z, v.z);
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
             if (i + j < end) result[i + j] = before[j];
         }
-        sum = before.w + v.w;
+        sum = saturating_add(before.w, v.w);
         i += 4u;
     }
     if (first < params.count && end == params.count) result[params.count] = sum;

@@ -18,8 +18,9 @@ const uint kReversed = 0x80000000u;
 const uint kSmallTiles = 4u;
 // Tiles that one block of 8 invocations looks at when large prisms are binned.
 const uint kBlockTiles = 8u;
-// Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, without a word.
-const uint kListChunk = 12288u;
+// Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, all its loops together, without a word, and
+// raster/conservative goes round up to 10 times for an entry: for itself, for each of 8 rows, and to find that there are no more.
+const uint kListChunk = 6144u;
 // Elements that one invocation scans.
 const uint kScanRun = 64u;
 
@@ -34,6 +35,11 @@ struct ViewGrid {
     uint triangle_count;
     uint vertex_stride;  // Vertices from one key to the next.
 };
+
+// Entries of each list that one dispatch of sample/trace walks: a stratum may lie in several cells, each with a list of its own.
+GN_FN uint trace_chunk(ViewGrid grid, uint spp) {
+    return spp % grid.cell_count == 0u ? kListChunk : max(kListChunk / (grid.cell_count / spp + 2u), 1u);
+}
 
 struct PoseParams {
     uint vertex_count;

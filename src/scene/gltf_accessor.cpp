@@ -13,7 +13,7 @@ namespace gnomon::gltf {
 namespace {
 
 constexpr uint64_t kMaxAccessorBytes = uint64_t{1} << 29;
-constexpr uint64_t kMaxDecodedBytes = uint64_t{1} << 32;
+constexpr uint64_t kMaxDecodedBytes = uint64_t{1} << 31;
 
 AccessorInfo info_of(const tinygltf::Accessor& accessor) {
     static constexpr std::string_view kTypes[] = {"VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};

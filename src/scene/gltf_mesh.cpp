@@ -80,6 +80,7 @@ private:
     void read_triangles(PrimitiveData& to) {
         const std::vector<uint32_t> indices = read_indices();
         const size_t count = indices.size();
+        to.triangles.reserve(from_.mode == TINYGLTF_MODE_TRIANGLES ? count / 3 : count);
         if (from_.mode == TINYGLTF_MODE_TRIANGLES) {
             report_.leftover_indices += count % 3;
             for (size_t i = 0; i + 2 < count; i += 3) to.triangles.push_back({indices[i], indices[i + 1], indices[i + 2]});
@@ -271,6 +272,7 @@ PrimitiveBound bound_of(const Document& document, const tinygltf::Primitive& pri
     if (!has_triangles(primitive)) return bound;
     bound.vertices = std::min(vertex_count, indices);
     bound.triangles = primitive.mode == TINYGLTF_MODE_TRIANGLES ? indices / 3 : indices;
+    bound.decoded_bytes += bound.triangles * 3 * sizeof(uint32_t);
     bound.deltas = bound.vertices * primitive.targets.size();
     for (const auto& [name, number] : primitive.attributes) {
         bound.decoded_bytes += float_bytes(accessors[static_cast<size_t>(number)]);
@@ -290,7 +292,7 @@ std::optional<PrimitiveData> read_primitive(const Document& document, size_t mes
     Reader reader(document, mesh, primitive, report);
     if (!has_triangles(from)) {
         ++report.point_or_line_primitives;
-        reader.read_indices();  // Out of range, they are an error there, too.
+        if (from.indices >= 0) reader.read_indices();  // Out of range, they are an error there, too.
         return std::nullopt;
     }
     return reader.read(materials);

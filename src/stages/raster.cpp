@@ -15,13 +15,20 @@ using gpu::Texel;
 // Ranges in memory start at a multiple of this, which keeps every binding aligned whatever the size of its elements.
 constexpr uint64_t kRangeAlign = 64;
 
+// Items that one workgroup of a raster stage handles.
+uint32_t items_per_group(const std::string& raster) {
+    if (raster == "raster/conservative") return 8;
+    if (raster == "raster/analytic") return 1;
+    throw Error(ErrorKind::internal, "no such raster stage", raster, "report this as a bug");
+}
+
 uint64_t align_down(uint64_t value) { return value / kRangeAlign * kRangeAlign; }
 
 }  // namespace
 
 SBuffer::SBuffer(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins, const Layout& layout, const std::string& raster,
                  bool orthographic)
-    : device_(device), programs_(programs), geometry_(geometry), bins_(bins), layout_(layout), raster_(raster + "@" + layout.name), orthographic_(orthographic) {
+    : device_(device), programs_(programs), geometry_(geometry), bins_(bins), layout_(layout), raster_(raster + "@" + layout.name), items_per_group_(items_per_group(raster)), orthographic_(orthographic) {
     item_count_ = bins.grid.tiles_x * bins.grid.tiles_y * bins.grid.cell_count;
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;
     uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
@@ -68,7 +75,7 @@ void SBuffer::record_pass(gpu::Recorder& recorder, bool fill, const Band& part) 
                 break;
         }
     }
-    uint64_t groups = groups_of(part.item_count, 8);
+    uint64_t groups = groups_of(part.item_count, items_per_group_);
     for (uint32_t first = 0; first == 0 || first < bins_.longest; first += shared::kListChunk) {
         recorder.fill(fill ? "raster/fill" : "raster/count", ticket_, 0);
         recorder.dispatch(fill ? "raster/fill" : "raster/count", programs_.get(raster_, {fill, orthographic_}), all,

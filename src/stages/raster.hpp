@@ -19,13 +19,14 @@ class SBuffer {
 public:
     /// Count the ranges of all lists. raster: the stage that finds them ("raster/conservative").
     /// Errors: ErrorKind::out_of_memory where one block of tiles alone is too much for the device.
-    SBuffer(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins, const Layout& layout, const std::string& raster,
-            bool orthographic);
+    SBuffer(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins, const Layout& layout,
+            const std::string& raster, bool orthographic);
 
     uint64_t range_count() const { return range_count_; }
     uint64_t list_count() const { return list_count_; }
 
-    /// Bands whose ranges take at most `bytes` each; one, if all of them do. Errors: ErrorKind::out_of_memory, saying how much a single block needs.
+    /// Bands whose ranges take at most `bytes` each; one, if all of them do. Errors: ErrorKind::out_of_memory, saying how much
+    /// a single block needs.
     std::vector<Band> bands(uint64_t bytes) const;
 
     /// Fill the ranges of a band; those of the band before are forgotten.
@@ -52,6 +53,7 @@ private:
     const Bins& bins_;
     Layout layout_;
     std::string raster_;
+    uint32_t items_per_group_;
     bool orthographic_;
     uint32_t item_count_ = 0;
     uint64_t list_count_ = 0;

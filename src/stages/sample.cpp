@@ -59,7 +59,8 @@ void Sampler::trace(const Batch& batch) {
     batch_ = batch;
     uint32_t run_count = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
     gpu::Recorder recorder(device_);
-    for (uint32_t first = 0; first == 0 || first < bins_.longest; first += shared::kListChunk) {
+    uint32_t chunk = shared::trace_chunk(bins_.grid, spp_);
+    for (uint32_t first = 0; first == 0 || first < bins_.longest; first += chunk) {
         recorder.fill("sample/trace", ticket_, 0);
         recorder.dispatch("sample/trace", programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0}),
                           bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},

@@ -23,15 +23,21 @@ struct SceneCase {
 
 void PrintTo(const SceneCase& c, std::ostream* out) { *out << c.name; }
 
-// Light and camera turn linearly between keys in gnomon: pillars, whose spot turns, gets enough keys for that error to vanish.
-std::vector<SceneCase> all_scenes() {
+// Light and camera turn linearly between keys in gnomon: the spot of pillars turns, and with 6 segments that error is less than
+// rounding. With 1 it is 0.08 % of the shadow tests, with 2 0.025 %, with 4 0.009 %.
+std::vector<SceneCase> made_scenes() {
     using namespace makers;
     return {
         {"two_cubes", [](const fs::path& p) { make_two_cubes(p, {6000}); }, "", {}},
         {"random_cubes", [](const fs::path& p) { make_random_cubes(p); }, "", {}},
         {"figure", [](const fs::path& p) { make_figure(p); }, "", {}},
-        {"pillars", [](const fs::path& p) { make_pillars(p); }, "", {"0", 16}},
+        {"pillars", [](const fs::path& p) { make_pillars(p); }, "", {"0", 6}},
         {"tube", [](const fs::path& p) { make_tube(p); }, "", {}},
+    };
+}
+
+std::vector<SceneCase> asset_scenes() {
+    return {
         {"CesiumMan", {}, "models/CesiumMan/CesiumMan.glb", {"0", 1, true}},
         {"Knight", {}, "models/KayKit_Knight/Knight.glb", {"0", 1, true}},
         {"Knight_chop", {}, "models/KayKit_Knight/Knight.glb", {"1H_Melee_Attack_Chop", 2, true}},
@@ -76,13 +82,17 @@ protected:
 
 TEST_P(Exact, AgreesWithTheReference) { expect_agreement(320, 240, {128, 512, 2048}); }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Exact, testing::ValuesIn(all_scenes()), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Exact, testing::ValuesIn(made_scenes()), [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Assets, Exact, testing::ValuesIn(asset_scenes()),
+                         [](const auto& tested) { return tested.param.name; });
 
 class LongExact : public Exact {};
 
-TEST_P(LongExact, AgreesWithTheReference) { expect_agreement(640, 480, {32, 128, 512, 1024, 2048, 4096}); }
+TEST_P(LongExact, AgreesWithTheReference) { expect_agreement(640, 480, {32, 128, 512, 2048}); }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, LongExact, testing::ValuesIn(all_scenes()),
+INSTANTIATE_TEST_SUITE_P(Scenes, LongExact, testing::ValuesIn(made_scenes()),
+                         [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Assets, LongExact, testing::ValuesIn(asset_scenes()),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <fstream>
 #include <gnomon/error.hpp>
 #include <iostream>
 
@@ -31,8 +33,8 @@ void expect_variety(const PosedScene& posed, const RenderSettings& settings, uin
         lit += record.triangle != SampleRecord::kMiss && (record.lit >> light & 1u) != 0;
     }
     EXPECT_GT(hits, frame.samples.size() / 10);
-    EXPECT_GT(lit, hits / 20);
-    EXPECT_LT(lit, hits - hits / 20);
+    EXPECT_GT(lit, hits / 100);
+    EXPECT_LT(lit, hits - hits / 100);
 }
 
 // The still life seen otherwise.
@@ -250,6 +252,30 @@ TEST(Views, PointLightsReflectNothingAndReachEverything) {
         ASSERT_EQ(channel(after, "visibility.1")[i], alpha[i] > 0.0f ? 1.0f : 0.0f);
         ASSERT_EQ(channel(after, "visibility_var.1")[i], 0.0f);
     }
+}
+
+// Nothing is dropped in silence: the command names a point light that it does not trace.
+TEST(Views, PointLightsAreNamedByTheCommand) {
+    const std::filesystem::path scene = std::filesystem::path(testing::TempDir()) / "gnomon_point_light.gltf";
+    std::ofstream(scene) << R"({
+  "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
+  "extensionsUsed": ["KHR_lights_punctual"],
+  "extensions": {"KHR_lights_punctual": {"lights": [{"name": "bulb", "type": "point"}]}},
+  "nodes": [{"mesh": 0}, {"translation": [0, 0, 2], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
+  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
+  "bufferViews": [{"buffer": 0, "byteLength": 36}],
+  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
+})";
+    const std::string command =
+        "'" GNOMON_COMMAND "' render '" + scene.string() + "' -o '" + scene.string() + ".exr' --size 8x8 --spp 1 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string text;
+    for (char buffer[256]; std::fgets(buffer, sizeof buffer, pipe) != nullptr;) text += buffer;
+    EXPECT_EQ(pclose(pipe), 0) << text;
+    EXPECT_THAT(text, testing::HasSubstr("point light"));
+    EXPECT_THAT(text, testing::HasSubstr("bulb"));
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ glm::dvec3 without_depth(const glm::dvec4& p) { return {p.x, p.y, p.w}; }
 // dot(a, cross(b, c)); zero where it is lost in the rounding of its terms.
 double triple(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     constexpr double kNoise = 0x1p-48;
-    const glm::dvec3 sizes(std::abs(b.y * c.z) + std::abs(b.z * c.y), std::abs(b.z * c.x) + std::abs(b.x * c.z), std::abs(b.x * c.y) + std::abs(b.y * c.x));
+    const glm::dvec3 sizes(std::abs(b.y * c.z) + std::abs(b.z * c.y), std::abs(b.z * c.x) + std::abs(b.x * c.z),
+                           std::abs(b.x * c.y) + std::abs(b.y * c.x));
     const double value = glm::dot(a, glm::cross(b, c));
     return std::abs(value) > kNoise * glm::dot(glm::abs(a), sizes) ? value : 0.0;
 }
@@ -107,8 +108,9 @@ std::optional<bool> orientation_in(const MovingTriangle& triangle, const Box& bo
     const std::array<glm::dvec4, 3> v = vertices_at(triangle, s);
     std::vector<glm::dvec3> polygon;
     for (const glm::dvec4& p : v) polygon.push_back(without_depth(p));
-    for (const glm::dvec3& normal : {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(1.0, 0.0, -box.lower.x), glm::dvec3(-1.0, 0.0, box.upper.x),
-                                     glm::dvec3(0.0, 1.0, -box.lower.y), glm::dvec3(0.0, -1.0, box.upper.y)}) {
+    for (const glm::dvec3& normal :
+         {glm::dvec3(0.0, 0.0, 1.0), glm::dvec3(1.0, 0.0, -box.lower.x), glm::dvec3(-1.0, 0.0, box.upper.x),
+          glm::dvec3(0.0, 1.0, -box.lower.y), glm::dvec3(0.0, -1.0, box.upper.y)}) {
         polygon = clip(polygon, normal);
     }
     if (polygon.size() < 3) return std::nullopt;

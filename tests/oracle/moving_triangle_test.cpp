@@ -46,7 +46,8 @@ TEST(StaysAt, TranslationEntersAndLeavesOnce) {
     EXPECT_TRUE(stays_at(kSlider, 6.0, 4.5).empty());
 }
 
-// (x, y) of the vertices stay, w goes from 2 to 4. The long side is x + y = 4, in the image X + Y = 4 / w: (0.75, 0.75) is inside while w <= 8/3, s <= 1/3.
+// (x, y) of the vertices stay, w goes from 2 to 4. The long side is x + y = 4, in the image X + Y = 4 / w: (0.75, 0.75) is
+// inside while w <= 8/3, s <= 1/3.
 TEST(StaysAt, RecedingTriangleShrinks) {
     const MovingTriangle t = {deep({-2, -2}, {6, -2}, {-2, 6}, 2.0), deep({-2, -2}, {6, -2}, {-2, 6}, 4.0)};
     const std::vector<Stay> stays = stays_at(t, 0.75, 0.75);
@@ -54,7 +55,8 @@ TEST(StaysAt, RecedingTriangleShrinks) {
     expect_stay(stays[0], 0.0, 1.0 / 3.0, true);
 }
 
-// The base from (-4, -4) to (4, -4) turns round, the apex (0, 4) stays. At y = 0 half the width is 2 |1 - 2 s|: x = 1 is inside until 1/4 and from 3/4 on.
+// The base from (-4, -4) to (4, -4) turns round, the apex (0, 4) stays. At y = 0 half the width is 2 |1 - 2 s|: x = 1 is inside
+// until 1/4 and from 3/4 on.
 TEST(StaysAt, TurningTriangleIsSeenFromBothSides) {
     const MovingTriangle t = {flat({-4, -4}, {4, -4}, {0, 4}, 1.0), flat({4, -4}, {-4, -4}, {0, 4}, 1.0)};
     const std::vector<Stay> stays = stays_at(t, 1.0, 0.0);
@@ -78,7 +80,8 @@ TEST(StaysAt, NoAreaIsNeverSeen) {
     EXPECT_TRUE(stays_at(point, 1.0, 1.0).empty());
 }
 
-// Vertices at w = 1, 2, 4 on X = 0, 1, 0 and Y = 0, 0, 1 of the image. The plane's 1 / w is linear in the image: 1 - X / 2 - 3 Y / 4, at (1/4, 1/4) 11/16.
+// Vertices at w = 1, 2, 4 on X = 0, 1, 0 and Y = 0, 0, 1 of the image. The plane's 1 / w is linear in the image: 1 - X / 2 - 3
+// Y / 4, at (1/4, 1/4) 11/16.
 TEST(SurfaceAt, DepthIsPerspectivelyRight) {
     const std::array<glm::dvec4, 3> v = {glm::dvec4(0, 0, -1, 1), glm::dvec4(2, 0, -1, 2), glm::dvec4(0, 4, -1, 4)};
     const std::optional<Surface> surface = surface_at({v, v}, 0.25, 0.25, 0.3);
@@ -87,7 +90,8 @@ TEST(SurfaceAt, DepthIsPerspectivelyRight) {
     EXPECT_TRUE(surface->positive);
 }
 
-// z = 1, 3, 7 at (0, 0), (4, 0), (0, 4): z = 1 + x / 2 + 3 y / 2. At s = 1/2 the slider's corner is at (4, 0); (5, 2) is (1, 2) of its own.
+// z = 1, 3, 7 at (0, 0), (4, 0), (0, 4): z = 1 + x / 2 + 3 y / 2. At s = 1/2 the slider's corner is at (4, 0); (5, 2) is (1, 2)
+// of its own.
 TEST(SurfaceAt, OrthographicDepthIsLinear) {
     MovingTriangle t = kSlider;
     for (auto* key : {&t.start, &t.end}) {
@@ -103,12 +107,12 @@ TEST(SurfaceAt, OrthographicDepthIsLinear) {
 
 // At s = 1/2 the slider's corners are (4, 0), (8, 0) and (4, 4).
 TEST(OrientationIn, TouchesWhatItOverlaps) {
-    EXPECT_EQ(orientation_in(kSlider, {{5, 1}, {6, 2}}, 0.5), std::optional(true));       // Inside.
-    EXPECT_EQ(orientation_in(kSlider, {{0, -9}, {20, 20}}, 0.5), std::optional(true));    // All around.
-    EXPECT_EQ(orientation_in(kSlider, {{5.9, 1.9}, {7, 3}}, 0.5), std::optional(true));   // The long side cuts off a corner.
-    EXPECT_EQ(orientation_in(kSlider, {{6.1, 2.1}, {7, 3}}, 0.5), std::nullopt);          // Just beyond the long side.
-    EXPECT_EQ(orientation_in(kSlider, {{2, 0}, {4, 4}}, 0.5), std::nullopt);              // Side by side.
-    EXPECT_EQ(orientation_in(kSlider, {{2, 0}, {4, 4}}, 0.25), std::optional(true));      // Earlier.
+    EXPECT_EQ(orientation_in(kSlider, {{5, 1}, {6, 2}}, 0.5), std::optional(true));      // Inside.
+    EXPECT_EQ(orientation_in(kSlider, {{0, -9}, {20, 20}}, 0.5), std::optional(true));   // All around.
+    EXPECT_EQ(orientation_in(kSlider, {{5.9, 1.9}, {7, 3}}, 0.5), std::optional(true));  // The long side cuts off a corner.
+    EXPECT_EQ(orientation_in(kSlider, {{6.1, 2.1}, {7, 3}}, 0.5), std::nullopt);         // Just beyond the long side.
+    EXPECT_EQ(orientation_in(kSlider, {{2, 0}, {4, 4}}, 0.5), std::nullopt);             // Side by side.
+    EXPECT_EQ(orientation_in(kSlider, {{2, 0}, {4, 4}}, 0.25), std::optional(true));     // Earlier.
     const MovingTriangle behind = {deep({-8, -8}, {8, -8}, {0, 8}, -1.0), deep({-8, -8}, {8, -8}, {0, 8}, 3.0)};
     EXPECT_EQ(orientation_in(behind, {{-1, -1}, {1, 1}}, 0.2), std::nullopt);
     EXPECT_EQ(orientation_in(behind, {{-1, -1}, {1, 1}}, 0.3), std::optional(true));

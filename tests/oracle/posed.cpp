@@ -16,7 +16,8 @@ glm::dvec3 posed_position(const Scene& scene, const Pose& pose, size_t vertex_ix
     for (size_t i = 0; i < vertex.influence_count; ++i) {
         const Influence& influence = scene.influences[vertex.influence_first + i];
         for (int row = 0; row < 3; ++row) {
-            rows[row] += double(influence.weight) * glm::dvec4(pose.palette[size_t(influence.matrix) * 3 + static_cast<size_t>(row)]);
+            rows[row] +=
+                double(influence.weight) * glm::dvec4(pose.palette[size_t(influence.matrix) * 3 + static_cast<size_t>(row)]);
         }
     }
     return glm::dvec4(rest, 1.0) * rows;

@@ -64,8 +64,12 @@ public:
                 shape.start = {glm::dvec2(0, 0), glm::dvec2(2, 4), glm::dvec2(4, 8)};
                 shape.end = {glm::dvec2(3, 0), glm::dvec2(5, 4), glm::dvec2(7, 8)};
                 break;
-            case 3: shape.start[1] = shape.start[0]; break;  // At the start only.
-            default: shape.end[2] = shape.end[0]; break;     // At the end only.
+            case 3:
+                shape.start[1] = shape.start[0];
+                break;  // At the start only.
+            default:
+                shape.end[2] = shape.end[0];
+                break;  // At the end only.
         }
         return shape;
     }
@@ -80,18 +84,25 @@ public:
 
     Shape shape_of(PrismKind kind) {
         switch (kind) {
-            case PrismKind::grazing: return grazing();
-            case PrismKind::degenerate: return degenerate();
+            case PrismKind::grazing:
+                return grazing();
+            case PrismKind::degenerate:
+                return degenerate();
             case PrismKind::turning: {
                 Shape shape = moving(power_of_two(-1, 5), power_of_two(-2, 5));
                 std::swap(shape.end[0], shape.end[1]);
                 return shape;
             }
-            case PrismKind::sub_texel: return moving(power_of_two(-12, -1), power_of_two(-8, 3));
-            case PrismKind::huge: return moving(1e4 * uniform(0.2, 1.0), power_of_two(0, 12));
-            case PrismKind::fast: return moving(power_of_two(0, 5), power_of_two(8, 13.3));
-            case PrismKind::on_borders: return on_borders();
-            default: return moving(power_of_two(-1, 5), power_of_two(-2, 6));
+            case PrismKind::sub_texel:
+                return moving(power_of_two(-12, -1), power_of_two(-8, 3));
+            case PrismKind::huge:
+                return moving(1e4 * uniform(0.2, 1.0), power_of_two(0, 12));
+            case PrismKind::fast:
+                return moving(power_of_two(0, 5), power_of_two(8, 13.3));
+            case PrismKind::on_borders:
+                return on_borders();
+            default:
+                return moving(power_of_two(-1, 5), power_of_two(-2, 6));
         }
     }
 
@@ -139,8 +150,9 @@ private:
 }  // namespace
 
 const char* name_of(PrismKind kind) {
-    constexpr std::array<const char*, kPrismKinds> kNames = {"random",    "grazing", "degenerate", "crossing_eye", "behind",    "turning",
-                                                             "sub_texel", "huge",    "motionless", "fast",         "on_borders"};
+    constexpr std::array<const char*, kPrismKinds> kNames = {"random",     "grazing", "degenerate", "crossing_eye",
+                                                             "behind",     "turning", "sub_texel",  "huge",
+                                                             "motionless", "fast",    "on_borders"};
     return kNames[static_cast<size_t>(kind)];
 }
 
@@ -153,7 +165,8 @@ Prism make_prism(PrismKind kind, bool orthographic, const glm::dvec2& texel, std
         shape.end_w = shape.start_w;
     }
     glm::dvec2 shift = texel;
-    if (kind != PrismKind::on_borders) shift += glm::dvec2(maker.uniform(-0.2, 1.2), maker.uniform(-0.2, 1.2)) - maker.covered_point(shape);
+    if (kind != PrismKind::on_borders)
+        shift += glm::dvec2(maker.uniform(-0.2, 1.2), maker.uniform(-0.2, 1.2)) - maker.covered_point(shape);
     Prism prism;
     for (size_t i = 0; i < 3; ++i) {
         const auto homogeneous = [&](const glm::dvec2& p, double w) {

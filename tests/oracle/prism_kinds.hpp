@@ -16,10 +16,10 @@ enum class PrismKind {
     behind,        ///< All of it behind the eye. Orthographic: random.
     turning,       ///< Seen from one side first, then from the other.
     sub_texel,
-    huge,          ///< 10^4 texels.
+    huge,  ///< 10^4 texels.
     motionless,
-    fast,          ///< Up to 10^4 texels in a segment.
-    on_borders,    ///< Vertices on corners of texels at both keys.
+    fast,        ///< Up to 10^4 texels in a segment.
+    on_borders,  ///< Vertices on corners of texels at both keys.
 };
 constexpr int kPrismKinds = 11;
 const char* name_of(PrismKind kind);

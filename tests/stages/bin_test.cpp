@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Setup and binning: each list holds every prism that the oracle sees in its tile and cell, in the orientation in which it is seen.
+// Setup and binning: each list holds every prism that the oracle sees in its tile and cell, in the orientation in which it is
+// seen.
 #include "stages/bin.hpp"
 
 #include <cstdio>
@@ -41,7 +42,8 @@ protected:
             listed += list.size();
             longest = std::max(longest, list.size());
             const uint32_t cell = item % cells, tile = item / cells;
-            const glm::dvec2 lower = 8.0 * glm::dvec2(tile % grid.tiles_x, tile / grid.tiles_x) - 0.5 * glm::dvec2(soup.width, soup.height);
+            const glm::dvec2 lower =
+                8.0 * glm::dvec2(tile % grid.tiles_x, tile / grid.tiles_x) - 0.5 * glm::dvec2(soup.width, soup.height);
             for (uint32_t i = 0; i < soup.triangles.size(); ++i) {
                 const oracle::MovingTriangle triangle = soup.triangle(i, cell / per_segment);
                 std::set<uint32_t> entries;
@@ -70,7 +72,8 @@ TEST_F(BinTest, ListsContainWhatTheOracleSees) {
             Soup soup(segments, 70, 45, orthographic);
             soup.add_prisms(220, random);
             const double ratio = expect_complete(soup, cells);
-            std::printf("%s, %u segments, %u cells: %.2f entries listed for one needed\n", orthographic ? "orthographic" : "perspective", segments, cells, ratio);
+            std::printf("%s, %u segments, %u cells: %.2f entries listed for one needed\n",
+                        orthographic ? "orthographic" : "perspective", segments, cells, ratio);
             EXPECT_LT(ratio, 3.0);
         }
     }

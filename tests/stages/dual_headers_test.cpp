@@ -3,12 +3,12 @@
 #include <cstring>
 #include <random>
 
-#include "edges.spv.h"
 #include "math/cover.h"
 #include "math/sample.h"
-#include "sample_point.spv.h"
 #include "stage_test.hpp"
 #include "stages/grid.hpp"
+#include "test_edges.spv.h"
+#include "test_sample_point.spv.h"
 
 namespace gnomon::test {
 namespace {
@@ -31,7 +31,7 @@ TEST_F(DualHeadersTest, SamplesHaveTheSameBits) {
     }
     const gpu::Buffer input = gpu::upload_new(device(), "queries", queries);
     const gpu::Buffer output = device().allocate("points", kCount * sizeof(glm::vec3));
-    const gpu::Program program = device().program(shader_of("sample_point", gnomon_test_sample_point));
+    const gpu::Program program = device().program(shader_of("sample_point", test_sample_point));
     gpu::Recorder recorder(device());
     recorder.dispatch("sample_point", program, bindings({{"Queries", &input}, {"Points", &output}}), kSeed, kCount / 64);
     recorder.submit();
@@ -57,7 +57,8 @@ TEST_F(DualHeadersTest, EdgesHaveTheSameBitsAndNeighboursAreNegatives) {
         const float x = scale * normal(random), y = scale * normal(random);
         return glm::vec4(x, y, -1.0f, std::abs(normal(random)) + 0.1f);
     };
-    // Queries in pairs: a triangle, and the one on the other side of its edge 0, whose first two vertices are the edge's, swapped.
+    // Queries in pairs: a triangle, and the one on the other side of its edge 0, whose first two vertices are the edge's,
+    // swapped.
     std::vector<glm::vec4> corners;
     for (uint32_t i = 0; i < kCount / 2; ++i) {
         const float scale = std::ldexp(1.0f, static_cast<int>(i % 24) - 8);
@@ -67,7 +68,7 @@ TEST_F(DualHeadersTest, EdgesHaveTheSameBitsAndNeighboursAreNegatives) {
     }
     const gpu::Buffer input = gpu::upload_new(device(), "corners", corners);
     const gpu::Buffer output = device().allocate("edges", kCount * sizeof(glm::vec3));
-    const gpu::Program program = device().program(shader_of("edges", gnomon_test_edges));
+    const gpu::Program program = device().program(shader_of("edges", test_edges));
     gpu::Recorder recorder(device());
     recorder.dispatch("edges", program, bindings({{"Corners", &input}, {"Edges", &output}}), kCount, kCount / 64);
     recorder.submit();

@@ -17,7 +17,8 @@ gpu::Shader reader_of(const std::string& layout) {
     for (const ReaderEntry& entry : kReaderTable) {
         if (layout == entry.layout) return {"read_ranges@" + layout, {entry.words, entry.word_count}};
     }
-    throw Error(ErrorKind::internal, "no reader of layout " + layout, "tests/stages/CMakeLists.txt", "configure the build again");
+    throw Error(ErrorKind::internal, "no reader of layout " + layout, "tests/stages/CMakeLists.txt",
+                "configure the build again");
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ std::vector<std::vector<uint32_t>> read_bins(gpu::Device& device, const Bins& bi
     return lists;
 }
 
-std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBuffer& s_buffer, const std::string& layout, const Band& band) {
+std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBuffer& s_buffer, const std::string& layout,
+                                                  const Band& band) {
     const uint32_t list_count = band.item_count * shared::kTileTexels;
     gpu::Buffer counts = device.allocate("counts", list_count * sizeof(uint32_t));
     gpu::Buffer found = device.allocate("found", 16);
@@ -41,7 +43,8 @@ std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBu
         const gpu::Constant constant{0, copy};
         gpu::Recorder recorder(device);
         recorder.dispatch("read_ranges", device.program(reader_of(layout), {&constant, 1}), all,
-                          shared::ReadRangesParams{band.item_first * shared::kTileTexels, list_count, s_buffer.range_base()}, groups_of(list_count, 64));
+                          shared::ReadRangesParams{band.item_first * shared::kTileTexels, list_count, s_buffer.range_base()},
+                          groups_of(list_count, 64));
         recorder.submit();
     };
     run(false);
@@ -52,7 +55,8 @@ std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBu
     const std::vector<RangeRecord> ranges = gpu::download_vector<RangeRecord>(device, found, sums.back());
     std::vector<std::vector<RangeRecord>> lists;
     for (size_t i = 0; i < list_count; ++i) {
-        lists.emplace_back(ranges.begin() + static_cast<ptrdiff_t>(sums[i]), ranges.begin() + static_cast<ptrdiff_t>(sums[i + 1]));
+        lists.emplace_back(ranges.begin() + static_cast<ptrdiff_t>(sums[i]),
+                           ranges.begin() + static_cast<ptrdiff_t>(sums[i + 1]));
         std::sort(lists.back().begin(), lists.back().end());
     }
     return lists;

@@ -18,8 +18,9 @@ struct RangeRecord {
     auto operator<=>(const RangeRecord&) const = default;
 };
 
-/// The ranges of a band that is filled, per list (item * kTileTexels + row * 8 + column), items counted from the band's first; each list sorted. Read
-/// by the layout's own GLSL.
-std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBuffer& s_buffer, const std::string& layout, const Band& band);
+/// The ranges of a band that is filled, per list (item * kTileTexels + row * 8 + column), items counted from the band's first;
+/// each list sorted. Read by the layout's own GLSL.
+std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBuffer& s_buffer, const std::string& layout,
+                                                  const Band& band);
 
 }  // namespace gnomon::test

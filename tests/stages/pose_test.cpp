@@ -21,8 +21,8 @@ protected:
         const Geometry geometry = pose_geometry(device(), programs(), scene, poses);
         for (size_t k = 0; k < poses.size(); ++k) {
             const std::vector<glm::vec3> expected = posed_positions(scene, poses[k]);
-            const std::vector<glm::vec4> posed =
-                gpu::download_vector<glm::vec4>(device(), geometry.positions, expected.size(), k * geometry.vertex_stride * sizeof(glm::vec4));
+            const std::vector<glm::vec4> posed = gpu::download_vector<glm::vec4>(
+                device(), geometry.positions, expected.size(), k * geometry.vertex_stride * sizeof(glm::vec4));
             uint64_t differing = 0;
             double largest = 1e-30, worst = 0.0;
             for (size_t v = 0; v < expected.size(); ++v) {

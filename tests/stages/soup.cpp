@@ -76,7 +76,8 @@ std::vector<Pose> Soup::poses() const {
     for (const auto& key : keys) {
         Pose pose;
         for (const glm::vec4& p : key) {
-            for (float coordinate : {p.x, p.y, orthographic ? p.z : p.w}) pose.palette.emplace_back(0.0f, 0.0f, 0.0f, coordinate);
+            for (float coordinate : {p.x, p.y, orthographic ? p.z : p.w})
+                pose.palette.emplace_back(0.0f, 0.0f, 0.0f, coordinate);
         }
         poses.push_back(std::move(pose));
     }

@@ -10,8 +10,8 @@
 
 namespace gnomon::test {
 
-/// Triangles with their vertices at every key, and a view that projects them to just these places. World space is (x, y, w) for a
-/// perspective view and (x, y, z) for an orthographic one.
+/// Triangles with their vertices at every key, and a view that projects them to just these places. World space is (x, y, w) for
+/// a perspective view and (x, y, z) for an orthographic one.
 struct Soup {
     uint32_t width = 64;
     uint32_t height = 64;

@@ -119,8 +119,8 @@ void run(Options options) {
 
     const Frame frame = trace_reference(scene, poses, r);
     const io::Json settings = settings_json(options, scene.cameras[r.camera].name);
-    io::write_exr(o.exr, frame.width, frame.height, frame.channels, io::exr_attributes(settings));
-    const std::string report = io::to_text(io::render_json(frame.stats, settings, {o.exr}, warnings)) + "\n";
+    io::write_exr(o.exr, frame.width, frame.height, frame.channels, io::exr_attributes(settings, frame.effective));
+    const std::string report = io::to_text(io::render_json(frame, settings, {o.exr}, warnings)) + "\n";
     if (json_to_stdout) {
         std::cout << report;
         return;

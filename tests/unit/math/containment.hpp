@@ -21,8 +21,8 @@ struct ContainmentCase {
     uint32_t cell = 0;  ///< One of the segment's.
     oracle::Prism prism;
 
-    oracle::Box box() const;             ///< The texel in raster space.
-    double local_start() const;          ///< Of the cell, in the segment's local time.
+    oracle::Box box() const;     ///< The texel in raster space.
+    double local_start() const;  ///< Of the cell, in the segment's local time.
     double local_end() const;
     double shutter(double local) const;  ///< The segment's local time in the shutter.
     std::string text() const;
@@ -43,10 +43,11 @@ std::optional<TexelRange> range_of(const ContainmentCase& c, bool positive);
 
 /// What a case showed.
 struct Verdict {
-    std::string error;         ///< What was not contained; empty: nothing.
-    uint64_t stays = 0;        ///< Checked against the oracle of points.
-    uint64_t overlaps = 0;     ///< Against the oracle of the whole texel.
-    uint64_t float_hits = 0;   ///< Against the exact test in float.
+    std::string error;        ///< What was not contained; empty: nothing.
+    uint64_t stays = 0;       ///< Checked against the oracle of points.
+    uint64_t overlaps = 0;    ///< Against the oracle of the whole texel.
+    uint64_t float_hits = 0;  ///< Against the exact test in float.
+    uint64_t excused = 0;     ///< Not contained, but of a triangle thinner than the rounding of its vertices.
 };
 
 /// Draw points of the texel and times of the cell, and compare.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The property that makes the shadows exact: a texel's range contains every time at which anything of the texel is covered. And how tight it is.
+// The property that makes the shadows exact: a texel's range contains every time at which anything of the texel is covered. And
+// how tight it is.
 #include "containment.hpp"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ TEST_P(Containment, RangesContainWhatTheOraclesSee) {
     const auto kind = static_cast<PrismKind>(GetParam());
     const int threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     std::mutex mutex;
-    uint64_t stays = 0, overlaps = 0, float_hits = 0, errors = 0;
+    uint64_t stays = 0, overlaps = 0, float_hits = 0, excused = 0, errors = 0;
     std::string first_error;
     std::vector<std::thread> workers;
     for (int thread = 0; thread < threads; ++thread) {
@@ -34,6 +35,7 @@ TEST_P(Containment, RangesContainWhatTheOraclesSee) {
                 sum.stays += v.stays;
                 sum.overlaps += v.overlaps;
                 sum.float_hits += v.float_hits;
+                sum.excused += v.excused;
                 if (v.error.empty()) continue;
                 const std::lock_guard lock(mutex);
                 if (++errors <= 3) first_error += v.error + "\n" + c.text() + "\n";
@@ -42,20 +44,25 @@ TEST_P(Containment, RangesContainWhatTheOraclesSee) {
             stays += sum.stays;
             overlaps += sum.overlaps;
             float_hits += sum.float_hits;
+            excused += sum.excused;
         });
     }
     for (std::thread& worker : workers) worker.join();
-    std::printf("%s: %d prisms, %llu stays, %llu overlaps, %llu float hits\n", oracle::name_of(kind), kCasesPerKind, static_cast<unsigned long long>(stays),
-                static_cast<unsigned long long>(overlaps), static_cast<unsigned long long>(float_hits));
+    std::printf("%s: %d prisms, %llu stays, %llu overlaps, %llu float hits, %llu excused\n", oracle::name_of(kind),
+                kCasesPerKind, static_cast<unsigned long long>(stays), static_cast<unsigned long long>(overlaps),
+                static_cast<unsigned long long>(float_hits), static_cast<unsigned long long>(excused));
     EXPECT_EQ(errors, 0u) << first_error;
-    // The prisms do meet their texels, so that there is something to contain. Those behind the eye are seen orthographically only.
+    // The prisms do meet their texels, so that there is something to contain.
     EXPECT_GT(stays, static_cast<uint64_t>(kCasesPerKind) / 20);
     EXPECT_GT(overlaps, static_cast<uint64_t>(kCasesPerKind) / 20);
-    EXPECT_GT(float_hits, static_cast<uint64_t>(kCasesPerKind) / 20);
+    EXPECT_GT(float_hits, static_cast<uint64_t>(kCasesPerKind) / 50);
+    EXPECT_LT(excused, static_cast<uint64_t>(kCasesPerKind) / 1000);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kinds, Containment, testing::Range(0, oracle::kPrismKinds),
-                         [](const testing::TestParamInfo<int>& kind) { return std::string(oracle::name_of(static_cast<PrismKind>(kind.param))); });
+                         [](const testing::TestParamInfo<int>& kind) {
+                             return std::string(oracle::name_of(static_cast<PrismKind>(kind.param)));
+                         });
 
 TEST(Ranges, NothingBehindTheEyeIsSeenByTheOracle) {
     std::mt19937 random(1);
@@ -67,7 +74,8 @@ TEST(Ranges, NothingBehindTheEyeIsSeenByTheOracle) {
 
 // What a range costs beyond the truth: time in which nothing is seen, and ranges over texels that are never touched.
 TEST(Ranges, AreTight) {
-    for (PrismKind kind : {PrismKind::random, PrismKind::sub_texel, PrismKind::fast, PrismKind::huge, PrismKind::motionless, PrismKind::turning}) {
+    for (PrismKind kind : {PrismKind::random, PrismKind::sub_texel, PrismKind::fast, PrismKind::huge, PrismKind::motionless,
+                           PrismKind::turning}) {
         std::mt19937 random(7);
         double ranges = 0.0, truth = 0.0;
         uint64_t found = 0, needless = 0;
@@ -86,8 +94,9 @@ TEST(Ranges, AreTight) {
                 }
             }
         }
-        std::printf("%s: ranges are %.3f times as long as the truth; %.1f %% of %llu are needless\n", oracle::name_of(kind), ranges / truth,
-                    100.0 * static_cast<double>(needless) / static_cast<double>(found), static_cast<unsigned long long>(found));
+        std::printf("%s: ranges are %.3f times as long as the truth; %.1f %% of %llu are needless\n", oracle::name_of(kind),
+                    ranges / truth, 100.0 * static_cast<double>(needless) / static_cast<double>(found),
+                    static_cast<unsigned long long>(found));
         if (kind == PrismKind::fast) continue;  // True times are too short for 256 instants.
         EXPECT_LT(ranges, 1.5 * truth) << oracle::name_of(kind);
         EXPECT_LT(needless, found * 2 / 3) << oracle::name_of(kind);

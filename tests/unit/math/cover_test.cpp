@@ -13,10 +13,14 @@ namespace {
 
 using oracle::PrismKind;
 
-float any_float(std::mt19937& random) { return std::ldexp(std::uniform_real_distribution<float>(-1.0f, 1.0f)(random), static_cast<int>(random() % 40) - 20); }
+float any_float(std::mt19937& random) {
+    return std::ldexp(std::uniform_real_distribution<float>(-1.0f, 1.0f)(random), static_cast<int>(random() % 40) - 20);
+}
 
 // The sign bit flipped; of a zero either sign will do.
-bool exact_negatives(float a, float b) { return std::bit_cast<uint32_t>(a) == (std::bit_cast<uint32_t>(b) ^ 0x80000000u) || (a == 0.0f && b == 0.0f); }
+bool exact_negatives(float a, float b) {
+    return std::bit_cast<uint32_t>(a) == (std::bit_cast<uint32_t>(b) ^ 0x80000000u) || (a == 0.0f && b == 0.0f);
+}
 
 TEST(Edges, SwappedEndsGiveExactNegatives) {
     std::mt19937 random(1);
@@ -26,13 +30,14 @@ TEST(Edges, SwappedEndsGiveExactNegatives) {
     }
 }
 
-// Two triangles on either side of an edge, in every order of their vertices: the shared edge function is the same but for its sign, and no point on their
-// common edge is missed by both. Points on vertices and on the edge included.
+// Two triangles on either side of an edge, in every order of their vertices: the shared edge function is the same but for its
+// sign, and no point on their common edge is missed by both. Points on vertices and on the edge included.
 TEST(Edges, NeighboursLeaveNoCrack) {
     std::mt19937 random(2);
     for (int i = 0; i < 200'000; ++i) {
         const bool orthographic = i % 2 == 0;
-        const oracle::Prism prism = oracle::make_prism(static_cast<PrismKind>(i % oracle::kPrismKinds), orthographic, glm::dvec2(0.0), random);
+        const oracle::Prism prism =
+            oracle::make_prism(static_cast<PrismKind>(i % oracle::kPrismKinds), orthographic, glm::dvec2(0.0), random);
         const float s = std::uniform_real_distribution<float>(0.0f, 1.0f)(random);
         const auto at = [&](size_t v) { return shared::vertex_at(prism.start[v], prism.end[v] - prism.start[v], s); };
         const glm::vec4 p = at(0), q = at(1), left = at(2);
@@ -47,7 +52,8 @@ TEST(Edges, NeighboursLeaveNoCrack) {
 
 TEST(Covers, ClosedTriangle) {
     const glm::vec4 p0(0, 0, 5, 1), p1(4, 0, 5, 1), p2(0, 4, 5, 1);
-    for (const glm::vec2 inside : {glm::vec2(1, 1), glm::vec2(0, 0), glm::vec2(4, 0), glm::vec2(0, 4), glm::vec2(2, 0), glm::vec2(2, 2)}) {
+    for (const glm::vec2 inside :
+         {glm::vec2(1, 1), glm::vec2(0, 0), glm::vec2(4, 0), glm::vec2(0, 4), glm::vec2(2, 0), glm::vec2(2, 2)}) {
         EXPECT_TRUE(shared::covers(shared::edges_at(p0, p1, p2, inside.x, inside.y)));
     }
     for (const glm::vec2 outside : {glm::vec2(-0.001f, 1), glm::vec2(2.001f, 2), glm::vec2(5, 0)}) {
@@ -65,7 +71,8 @@ TEST(Covers, AgreesWithTheOracle) {
         const PrismKind kind = i % 3 == 0 ? PrismKind::random : i % 3 == 1 ? PrismKind::turning : PrismKind::crossing_eye;
         const oracle::Prism prism = oracle::make_prism(kind, orthographic, glm::dvec2(0.0), random);
         const float s = std::uniform_real_distribution<float>(0.0f, 1.0f)(random);
-        const float x = std::uniform_real_distribution<float>(0.0f, 1.0f)(random), y = std::uniform_real_distribution<float>(0.0f, 1.0f)(random);
+        const float x = std::uniform_real_distribution<float>(0.0f, 1.0f)(random),
+                    y = std::uniform_real_distribution<float>(0.0f, 1.0f)(random);
         const auto at = [&](size_t v) { return shared::vertex_at(prism.start[v], prism.end[v] - prism.start[v], s); };
         const std::optional<oracle::Surface> surface = surface_at(exact(prism), x, y, s);
         const size_t second = surface && !surface->positive ? 2 : 1;

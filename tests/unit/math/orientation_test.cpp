@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// comp_shaders/math/orientation.h: no orientation in which a triangle is really seen is missed, and few are claimed without need.
+// comp_shaders/math/orientation.h: no orientation in which a triangle is really seen is missed, and few are claimed without
+// need.
 #include "math/orientation.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +22,8 @@ TEST(Orientations, OfKnownTriangles) {
     const glm::vec3 o = flat(0, 0), right = flat(4, 0), down = flat(0, 4), up = flat(0, -4);
     EXPECT_EQ(shared::orientations(o, right, down, o, right, down, 32.0f), shared::kSeenPositive);
     EXPECT_EQ(shared::orientations(o, down, right, o, down, right, 32.0f), shared::kSeenNegative);
-    EXPECT_EQ(shared::orientations(o, right, down, o, right, up, 32.0f), shared::kSeenPositive | shared::kSeenNegative) << "turns over";
+    EXPECT_EQ(shared::orientations(o, right, down, o, right, up, 32.0f), shared::kSeenPositive | shared::kSeenNegative)
+        << "turns over";
 }
 
 uint32_t whole_segment(const oracle::Prism& p, float extent) {
@@ -62,8 +64,8 @@ TEST(Orientations, MissesNoneThatIsSeen) {
             needless += std::popcount(mask & ~truth);
         }
     }
-    std::printf("%llu orientations seen; of random and motionless prisms %.1f %% of the claimed ones are needless\n", static_cast<unsigned long long>(seen),
-                100.0 * static_cast<double>(needless) / static_cast<double>(claimed));
+    std::printf("%llu orientations seen; of random and motionless prisms %.1f %% of the claimed ones are needless\n",
+                static_cast<unsigned long long>(seen), 100.0 * static_cast<double>(needless) / static_cast<double>(claimed));
     EXPECT_GT(seen, 200'000u);
     EXPECT_LT(needless, claimed / 4);
 }

@@ -43,13 +43,15 @@ TEST(Pose, PositionsAgreeWithTheOracle) {
     }
 }
 
-// Under (x, y, z) -> (2 x, y, z) the plane x + y = const becomes x / 2 + y = const: its normal (1, 1, 0) turns to (1, 2, 0) / sqrt 5.
+// Under (x, y, z) -> (2 x, y, z) the plane x + y = const becomes x / 2 + y = const: its normal (1, 1, 0) turns to (1, 2, 0) /
+// sqrt 5.
 TEST(Pose, NormalsGoWithTheInverseTranspose) {
     const glm::vec3 n = shared::skin_add_normal(glm::vec3(0.0f), {2, 0, 0, 9}, {0, 1, 0, 9}, {0, 0, 1, 9}, {1, 1, 0}, 0.5f);
     EXPECT_NEAR(n.x, 0.5 / std::sqrt(5.0), 1e-6);
     EXPECT_NEAR(n.y, 1.0 / std::sqrt(5.0), 1e-6);
     EXPECT_EQ(n.z, 0.0f);
-    const glm::vec3 flat = shared::skin_add_normal(glm::vec3(1.0f), glm::vec4(0.0f), glm::vec4(0.0f), glm::vec4(0.0f), {1, 1, 0}, 1.0f);
+    const glm::vec3 flat =
+        shared::skin_add_normal(glm::vec3(1.0f), glm::vec4(0.0f), glm::vec4(0.0f), glm::vec4(0.0f), {1, 1, 0}, 1.0f);
     EXPECT_EQ(flat, glm::vec3(1.0f)) << "a matrix of rank 0 adds nothing";
 }
 

@@ -48,7 +48,8 @@ TEST(SamplePoint, IsEvenlySpread) {
     }
 }
 
-// From one sample to the next x and y grow by the same fractions of a pixel: the inverses of the plastic number and of its square, less whole pixels.
+// From one sample to the next x and y grow by the same fractions of a pixel: the inverses of the plastic number and of its
+// square, less whole pixels.
 TEST(SamplePoint, IsALatticeInThePixel) {
     constexpr double kPlastic = 1.32471795724474602596;
     const uint32_t hash = shared::pixel_hash(0, 0, 9);

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole pictures: the same bits in every layout and within every memory budget.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <gnomon/error.hpp>
+#include <gnomon/render.hpp>
+
+#include "layouts/layout.hpp"
+
+namespace gnomon::test {
+namespace {
+
+constexpr uint64_t kMebibyte = 1u << 20;
+
+class PictureTest : public testing::Test {
+protected:
+    static Renderer& renderer() {
+        static Renderer shared("", true);
+        return shared;
+    }
+
+    PictureTest() : scene(load_scene(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / "two-cubes.gltf")) {
+        poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 0.5, 2);
+        const Bounds bounds = bounds_of(scene, poses);
+        if (scene.cameras.empty()) add_default_camera(scene, poses, bounds, 1.5);
+        if (scene.lights.empty()) add_default_light(scene, poses);
+        settings.width = 96;
+        settings.height = 64;
+        settings.spp = 8;
+        settings.shadow_res = 400;
+    }
+
+    static uint64_t fills(const Frame& frame) {
+        uint64_t dispatches = 0;
+        for (const FrameStats::Stage& stage : frame.stats.stages)
+            dispatches += stage.name == "raster/fill" ? stage.dispatches : 0;
+        return dispatches;
+    }
+
+    static void expect_same_bits(const Frame& frame, const Frame& expected) {
+        ASSERT_EQ(frame.channels.size(), expected.channels.size());
+        for (size_t i = 0; i < frame.channels.size(); ++i)
+            EXPECT_TRUE(frame.channels[i].values == expected.channels[i].values) << frame.channels[i].name;
+    }
+
+    Scene scene;
+    std::vector<Pose> poses;
+    RenderSettings settings;
+};
+
+TEST_F(PictureTest, IsTheSameInEveryLayout) {
+    const Frame expected = renderer().render(scene, poses, settings);
+    for (const std::string& layout : layout_names()) {
+        if (!find_layout(layout).lossless) continue;
+        settings.layout = layout;
+        expect_same_bits(renderer().render(scene, poses, settings), expected);
+    }
+}
+
+TEST_F(PictureTest, IsTheSameWithinAnyBudget) {
+    const Frame expected = renderer().render(scene, poses, settings);
+    uint64_t most_fills = 0, rendered = 0;
+    for (const std::string& layout : layout_names()) {
+        if (!find_layout(layout).lossless) continue;
+        settings.layout = layout;
+        // Downwards until it does not fit, which is said.
+        for (uint64_t budget = 2 * expected.stats.peak_bytes; budget > kMebibyte / 4; budget /= 2) {
+            settings.memory_budget = budget;
+            try {
+                const Frame frame = renderer().render(scene, poses, settings);
+                SCOPED_TRACE(testing::Message() << layout << " within " << budget << " bytes");
+                EXPECT_LE(frame.stats.peak_bytes, budget);
+                expect_same_bits(frame, expected);
+                most_fills = std::max(most_fills, fills(frame));
+                ++rendered;
+            } catch (const Error& error) {
+                EXPECT_EQ(error.kind(), ErrorKind::out_of_memory) << error.what();
+                break;
+            }
+        }
+    }
+    EXPECT_GT(rendered, 2u);
+    EXPECT_GT(most_fills, fills(expected)) << "no budget led to several bands or batches";
+}
+
+}  // namespace
+}  // namespace gnomon::test

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// The registry of methods, and what it says to settings that do not go together.
+#include "methods/method.hpp"
+
+#include <gmock/gmock.h>
+
+#include <gnomon/error.hpp>
+#include <set>
+
+#include "layouts/layout.hpp"
+#include "pipeline/memory_plan.hpp"
+#include "pipeline/programs.hpp"
+
+namespace gnomon::test {
+namespace {
+
+using testing::HasSubstr;
+
+template <class Statement>
+void expect_usage_error(const std::vector<std::string>& parts, Statement statement) {
+    try {
+        statement();
+        ADD_FAILURE() << "nothing was thrown";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::usage);
+        for (const std::string& part : parts) EXPECT_THAT(error.what(), HasSubstr(part));
+    }
+}
+
+TEST(MethodTest, NamesAreUniqueAndStagesExist) {
+    std::set<std::string> names;
+    for (const Method& method : methods()) {
+        EXPECT_TRUE(names.insert(method.name).second) << method.name;
+        EXPECT_EQ(find_method(method.name).name, method.name);
+        for (const std::string& layout : layout_names()) {
+            EXPECT_FALSE(find_shader(method.shadow_stage + "@" + layout).spirv.empty());
+            for (const std::string& raster : method.rasters)
+                EXPECT_FALSE(find_shader("raster/" + raster + "@" + layout).spirv.empty());
+        }
+    }
+    EXPECT_EQ(methods().front().name, RenderSettings().method);
+}
+
+TEST(MethodTest, UnknownOneNamesThoseThatExist) {
+    expect_usage_error({"no method 'dtr-analytical'", "--method", "exact", "dtr-analytic"},
+                       [] { find_method("dtr-analytical"); });
+}
+
+TEST(MethodTest, RasterIsTheMethodsOwn) {
+    EXPECT_EQ(choose_raster(find_method("exact"), "auto"), "conservative");
+    EXPECT_EQ(choose_raster(find_method("exact"), "conservative"), "conservative");
+    EXPECT_EQ(choose_raster(find_method("dtr-analytic"), "auto"), "analytic");
+    expect_usage_error({"exact", "'analytic'", "--raster", "conservative"},
+                       [] { choose_raster(find_method("exact"), "analytic"); });
+    expect_usage_error({"dtr-analytic", "'conservative'", "--raster", "use auto or analytic"},
+                       [] { choose_raster(find_method("dtr-analytic"), "conservative"); });
+    expect_usage_error({"'prism'"}, [] { choose_raster(find_method("exact"), "prism"); });
+}
+
+TEST(MethodTest, LightCellsFollowTheRule) {
+    EXPECT_EQ(light_cells(Method::LightCells::segments, 1, false), 1u);
+    EXPECT_EQ(light_cells(Method::LightCells::segments, 7, false), 7u);
+    EXPECT_EQ(light_cells(Method::LightCells::finer, 7, false) % 7, 0u);
+    EXPECT_EQ(light_cells(Method::LightCells::finer, 3, true), 3u);
+}
+
+TEST(MethodTest, OnlyExitDepthsCostMemory) {
+    const auto range_bytes = [](const Layout& layout) {
+        uint32_t bytes = 0;
+        for (const LayoutBuffer& b : layout.buffers) bytes += b.per == LayoutBuffer::Per::range ? b.element_bytes : 0;
+        return bytes;
+    };
+    for (const std::string& name : layout_names()) {
+        const Layout layout = find_layout(name);
+        EXPECT_EQ(range_bytes(with_ranges(layout, true)), range_bytes(with_ranges(layout, false)) + 4) << name;
+    }
+    expect_usage_error({"no S-buffer layout 'heap'", "array", "linked"}, [] { find_layout("heap"); });
+}
+
+}  // namespace
+}  // namespace gnomon::test
