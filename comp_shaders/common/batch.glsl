@@ -14,13 +14,13 @@ Slot unpack_slot(uint slot, uint stratum_count) {
     s.column = slot & 7u;
     s.row = (slot >> 3u) & 7u;
     uint item = slot >> 6u;
-    s.tile = item / stratum_count;
+    s.tile = divide(item, stratum_count);
     s.stratum = item - s.tile * stratum_count;
     return s;
 }
 
 uvec2 slot_pixel(Slot s, uint tile_first, uint tiles_x) {
     uint tile = tile_first + s.tile;
-    uint tile_y = tile / tiles_x;
+    uint tile_y = divide(tile, tiles_x);
     return uvec2((tile - tile_y * tiles_x) * kTileSize + s.column, tile_y * kTileSize + s.row);
 }

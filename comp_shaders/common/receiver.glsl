@@ -19,8 +19,8 @@ Receiver fetch_receiver(uint entry, uvec2 pixel, uint stratum, uint spp, uint se
     vec3 p = sample_point(pixel_hash(pixel.x, pixel.y, seed), pixel.x, pixel.y, stratum, spp);
     h.pixel = pixel;
     h.t = p.z;
-    uint cell = straddle ? cell_of(p.z, grid.cell_count) : stratum / (spp / grid.cell_count);
-    h.segment = cell / (grid.cell_count / grid.segment_count);
+    uint cell = straddle ? cell_of(p.z, grid.cell_count) : divide(stratum, spp / grid.cell_count);
+    h.segment = divide(cell, grid.cell_count / grid.segment_count);
     h.local_time = p.z * float(grid.segment_count) - float(h.segment);
     uvec4 tri = texelFetch(triangles, int(entry & ~kReversed));
     h.vertex = tri.xyz;

@@ -11,6 +11,7 @@ layout(constant_id = 1) const bool kCameraOrthographic = false;
 layout(constant_id = 2) const bool kStraddle = false;            // As in sample/trace.
 layout(constant_id = 3) const bool kCount = false;               // Fill ShadowCounts.
 layout(constant_id = 4) const bool kResume = false;              // Lists are walked in parts of kListChunk.
+layout(constant_id = 5) const bool kFirst = false;               // Nothing was written to Lit before.
 layout(binding = 0) uniform usamplerBuffer queue;
 layout(binding = 1) uniform usamplerBuffer hits;
 layout(binding = 2) uniform usamplerBuffer triangles;
@@ -85,6 +86,15 @@ ShadowTest shadow_test(uint i) {
     test.here = inside && in_cone && item >= params.item_first && item < params.item_first + params.item_count;
     test.list = item * kTileTexels + (ty & 7u) * kTileSize + (tx & 7u);
     return test;
+}
+
+// Bits that are set: the lights that reach the hit, and all that have not been asked yet.
+void write_lit(uint i, ShadowTest test, bool shadowed) {
+    if (kFirst) {
+        if (i < params.hit_count) lit[test.slot] = shadowed ? ~(1u << params.light) : 0xffffffffu;
+    } else if (shadowed) {
+        lit[test.slot] &= ~(1u << params.light);
+    }
 }
 
 void add_shadow_counts(uint i, uint visited, uint tested, bool was_cast) {

@@ -5,3 +5,10 @@
 #include "shared/params.h"
 
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
+
+// a / b for a < 2^24, without lavapipe's slow division: by floats, then put right by the remainder.
+uint divide(uint a, uint b) {
+    uint q = uint(float(a) / float(b));
+    int remainder = int(a - q * b);
+    return remainder < 0 ? q - 1u : (remainder >= int(b) ? q + 1u : q);
+}

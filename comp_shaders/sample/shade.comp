@@ -15,6 +15,8 @@ layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const bool kStraddle = false;  // As in sample/trace.
 layout(constant_id = 2) const bool kDepths = false;
 layout(constant_id = 3) const bool kTextures = false;
+layout(constant_id = 4) const bool kSmooth = false;      // Vertices have normals.
+layout(constant_id = 5) const bool kLightsMove = false;
 layout(binding = 0) uniform usamplerBuffer hits;
 layout(binding = 1) uniform usamplerBuffer lit;
 layout(binding = 2) uniform usamplerBuffer triangles;
@@ -63,8 +65,13 @@ vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
     vec4 color_kind = texelFetch(lights, head);
     vec4 cone = texelFetch(lights, head + 1);
     int key = head + int(kLightHead + kLightPerKey * h.segment);
-    vec3 origin = mix(texelFetch(lights, key).xyz, texelFetch(lights, key + 2).xyz, h.local_time);
-    vec3 axis = forward_of(slerp(texelFetch(lights, key + 1), texelFetch(lights, key + 3), h.local_time));
+    vec3 origin = texelFetch(lights, key).xyz;
+    vec4 rotation = texelFetch(lights, key + 1);
+    if (kLightsMove) {
+        origin = mix(origin, texelFetch(lights, key + 2).xyz, h.local_time);
+        rotation = slerp(rotation, texelFetch(lights, key + 3), h.local_time);
+    }
+    vec3 axis = forward_of(rotation);
     bool spot = floatBitsToUint(color_kind.w) == kLightSpot;
     vec3 to_light = spot ? origin - position : -axis;
     float distance2 = max(dot(to_light, to_light), 1e-12);
@@ -108,10 +115,13 @@ void main() {
             vec3 position = blend(w0, w1, w2, h.barycentrics);
             // Seen in positive orientation, the normal of the triangle's own winding points away from the camera.
             vec3 geometric = normalize(cross3(w1 - w0, w2 - w0)) * ((entry & kReversed) != 0u ? 1.0 : -1.0);
-            vec3 normal = blend(world_at(normals, h.vertex.x, h), world_at(normals, h.vertex.y, h), world_at(normals, h.vertex.z, h), h.barycentrics);
-            float length2 = dot(normal, normal);
-            normal = length2 > 1e-20 ? normal * inversesqrt(length2) : geometric;
-            normal = dot(normal, geometric) < 0.0 ? -normal : normal;
+            vec3 normal = geometric;
+            if (kSmooth) {
+                vec3 blended = blend(world_at(normals, h.vertex.x, h), world_at(normals, h.vertex.y, h), world_at(normals, h.vertex.z, h), h.barycentrics);
+                float length2 = dot(blended, blended);
+                normal = length2 > 1e-20 ? blended * inversesqrt(length2) : geometric;
+                normal = dot(normal, geometric) < 0.0 ? -normal : normal;
+            }
 
             int a0 = int(2u * h.vertex.x), a1 = int(2u * h.vertex.y), a2 = int(2u * h.vertex.z);
             vec3 tint = blend(texelFetch(attributes, a0 + 1).xyz, texelFetch(attributes, a1 + 1).xyz, texelFetch(attributes, a2 + 1).xyz, h.barycentrics);

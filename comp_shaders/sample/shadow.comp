@@ -7,8 +7,7 @@
 // Source:  math/cover.h; a hit triangle does not occlude itself, and nothing within `tolerance` of the hit along its normal does
 #extension GL_GOOGLE_include_directive : require
 #include "common/shadow_test.glsl"
-
-const uint kCandidates = 16u;
+#include "common/candidates.glsl"
 
 // Does the triangle of a range cover (x, y) at the hit's time, nearer than `limit`?
 bool occludes(uint entry, Receiver h, float x, float y, float limit) {
@@ -37,23 +36,20 @@ void main() {
     uint steps = 0u;
     bool more = test.here && layout_more(it);
     while (more && !shadowed) {
-        uint candidates[kCandidates];
+        Candidates candidates = candidates_begin(it);
         uint count = 0u;
-        while (more && count < kCandidates) {
+        while (more && count < kMostCandidates) {
             vec4 range = layout_next(it);
-            uint entry = floatBitsToUint(range.w);
-            bool candidate = h.t >= range.x && h.t <= range.y && range.z < test.limit && (entry & ~kReversed) != test.own;
-            candidates[count] = entry;
-            count += candidate ? 1u : 0u;
+            bool candidate = h.t >= range.x && h.t <= range.y && range.z < test.limit && (floatBitsToUint(range.w) & ~kReversed) != test.own;
+            candidates_add(candidates, count, floatBitsToUint(range.w), candidate);
             if (kCount) ++visited;
+            if (kCount) tested += candidate ? 1u : 0u;
             if (kResume) ++steps;
             more = layout_more(it) && (!kResume || steps < kListChunk);
         }
-        if (kCount) tested += count;
         uint next = 0u;
-        while (next < count && !shadowed) {
-            shadowed = occludes(candidates[next], h, test.at.x, test.at.y, test.limit);
-            ++next;
+        while (candidates_more(candidates, next, count) && !shadowed) {
+            shadowed = occludes(candidates_next(candidates, next), h, test.at.x, test.at.y, test.limit);
         }
     }
     // What is shadowed has no more to walk.
@@ -63,6 +59,6 @@ void main() {
         }
         iterators[i] = it;
     }
-    if (shadowed) lit[test.slot] &= ~(1u << params.light);
+    write_lit(i, test, shadowed);
     if (kCount) add_shadow_counts(i, visited, tested, test.here);
 }

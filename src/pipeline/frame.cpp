@@ -190,7 +190,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget);
     Sampler sampler(device, programs, geometry, view, bins, method.shadow_stage + "@" + layout.name, settings.spp,
-                    settings.seed, frame.light_count, most_slots, settings.keep_samples);
+                    settings.seed, frame.light_count, most_slots, settings.keep_samples, settings.count_ranges);
     uint64_t left = budget - std::min(budget, device.live_bytes());
     for (LightSide& side : sides) {
         side.bands = side.s_buffer->bands(left / sides.size());
@@ -206,7 +206,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
                 sampler.test_shadows(side, band, occlusion_tolerance(bounds));
             }
         }
-        sampler.shade(lights);
+        sampler.shade(lights, !lights_still(poses));
         if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp);
     }
     resolve(frame, sampler.film(), settings.spp);

@@ -30,6 +30,12 @@ bool is_still(const std::vector<Pose>& poses) {
     });
 }
 
+bool lights_still(const std::vector<Pose>& poses) {
+    const Pose& first = poses.front();
+    return std::all_of(poses.begin(), poses.end(),
+                       [&](const Pose& p) { return std::equal(p.lights.begin(), p.lights.end(), first.lights.begin(), same); });
+}
+
 uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still) {
     if (still) return segments;
     uint32_t best = 0;

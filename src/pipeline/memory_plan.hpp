@@ -13,6 +13,9 @@ namespace gnomon {
 /// Nothing moves between the poses: no vertex, camera or light.
 bool is_still(const std::vector<Pose>& poses);
 
+/// No light moves or turns between the poses.
+bool lights_still(const std::vector<Pose>& poses);
+
 /// Cells of time in which the camera's prisms are listed: a multiple of the segments; where possible a divisor of spp, so that
 /// each stratum lies in one cell.
 uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);

@@ -41,6 +41,7 @@ void upload_surfaces(gpu::Device& device, const Scene& scene, Geometry& geometry
     for (const Vertex& v : scene.vertices) {
         attributes.emplace_back(v.uv, 0.0f, 0.0f);
         attributes.push_back(v.color);
+        geometry.smooth = geometry.smooth || v.normal != glm::vec3(0.0f);
     }
     geometry.attributes = gpu::upload_new(device, "attributes", attributes);
 

@@ -23,6 +23,7 @@ public:
             const std::string& raster, bool orthographic);
 
     uint64_t range_count() const { return range_count_; }
+    uint32_t item_count() const { return item_count_; }
     uint64_t list_count() const { return list_count_; }
 
     /// Bands whose ranges take at most `bytes` each; one, if all of them do. Errors: ErrorKind::out_of_memory, saying how much

@@ -28,7 +28,7 @@ std::vector<float> srgb_table() {
 
 Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
                  const std::string& shadow_stage, uint32_t spp, uint32_t seed, uint32_t light_count, uint64_t most_slots,
-                 bool depths)
+                 bool depths, bool counting)
     : device_(device),
       programs_(programs),
       geometry_(geometry),
@@ -39,7 +39,8 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
       seed_(seed),
       light_count_(light_count),
       straddle_(spp % bins.grid.cell_count != 0),
-      depths_(depths) {
+      depths_(depths),
+      counting_(counting) {
     uint64_t pixels = uint64_t(bins.grid.width) * bins.grid.height;
     hits_ = device.allocate("hits", most_slots * 4);
     lit_ = device.allocate("lit", most_slots * 4);
@@ -73,7 +74,7 @@ void Sampler::trace(const Batch& batch) {
                                               batch.stratum_count, spp_, seed_, first, view_.depth_near, view_.depth_far},
                           groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
     }
-    recorder.fill("sample/compact", lit_, 0xffffffffu);
+    lit_written_ = false;
     recorder.fill("sample/compact", runs_, 0);
     recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
                       bindings({{"hits", &hits_, Texel::rgba32_uint}, {"Runs", &runs_}}), shared::CompactParams{run_count},
@@ -103,7 +104,11 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                      {"ShadowCounts", &shadow_counts_},
                                      {"Iterators", &iterators_}};
     for (const gpu::Binding& b : light.s_buffer->read_bindings()) all.push_back(b);
+    // The first pass over the queue writes every hit's word, later ones clear bits in it.
+    bool first = !lit_written_ && parts == 1 && band.item_first == 0 && band.item_count == light.s_buffer->item_count();
     gpu::Recorder recorder(device_);
+    if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, 0xffffffffu);
+    lit_written_ = true;
     recorder.fill("sample/shadow", shadow_counts_, 0);
     for (uint32_t part = 0; part < parts; ++part) {
         shared::ShadowParams params{bins_.grid,
@@ -129,10 +134,14 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     part};
         recorder.dispatch(
             "sample/shadow",
-            programs_.get(shadow_stage_, {light.view.orthographic, view_.orthographic, straddle_, true, parts > 1}), all,
+            programs_.get(shadow_stage_, {light.view.orthographic, view_.orthographic, straddle_, counting_, parts > 1, first}), all,
             params, groups_of(queue_count_, 64));
     }
     recorder.submit();
+    if (!counting_) {
+        counts_.cast += band.item_first == 0 ? queue_count_ : 0;
+        return;
+    }
     uint64_t blocks = groups_of(queue_count_, kCountersHits);
     std::vector<uint32_t> values = gpu::download_vector<uint32_t>(device_, shadow_counts_, blocks * 3);
     for (uint64_t i = 0; i < blocks; ++i) {
@@ -142,10 +151,12 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     }
 }
 
-void Sampler::shade(const gpu::Buffer& lights) {
+void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
     gpu::Recorder recorder(device_);
+    if (!lit_written_) recorder.fill("sample/shade", lit_, 0xffffffffu);
     recorder.dispatch(
-        "sample/shade", programs_.get("sample/shade", {view_.orthographic, straddle_, depths_, geometry_.textured}),
+        "sample/shade",
+        programs_.get("sample/shade", {view_.orthographic, straddle_, depths_, geometry_.textured, geometry_.smooth, lights_move}),
         bindings({{"hits", &hits_, Texel::r32_uint},
                   {"lit", &lit_, Texel::r32_uint},
                   {"triangles", &geometry_.triangles, Texel::rgba32_uint},

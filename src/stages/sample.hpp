@@ -37,14 +37,14 @@ public:
     /// shadow_stage: the method's test, compiled for the layout. depths: keep each sample's depth.
     Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
             const std::string& shadow_stage, uint32_t spp, uint32_t seed, uint32_t light_count, uint64_t most_slots,
-            bool depths);
+            bool depths, bool counting);
 
     /// Forget the batch before: find the nearest triangle of each sample, then queue those that hit.
     void trace(const Batch& batch);
     /// Test the queue against a band of a light's S-buffer that is filled now.
     void test_shadows(const LightSide& light, const Band& band, float tolerance);
     /// Add the batch to the film.
-    void shade(const gpu::Buffer& lights);
+    void shade(const gpu::Buffer& lights, bool lights_move);
 
     std::vector<float> film() const;  ///< Planes as in comp_shaders/shared/film.h.
     uint64_t hit_count() const { return hit_total_; }
@@ -62,7 +62,8 @@ private:
     const Bins& bins_;
     std::string shadow_stage_;
     uint32_t spp_, seed_, light_count_;
-    bool straddle_, depths_;
+    bool straddle_, depths_, counting_;
+    bool lit_written_ = false;  ///< Of this batch.
     Batch batch_;
     uint32_t queue_count_ = 0;
     uint64_t hit_total_ = 0;

@@ -30,6 +30,8 @@ ListIterator layout_begin(uint list) { return ListIterator(texelFetch(list_offse
 ListIterator layout_end() { return ListIterator(0u, 0u); }
 bool layout_more(ListIterator it) { return it.x < it.y; }
 vec4 layout_next(inout ListIterator it) { return texelFetch(ranges, int(it.x++ - range_base())); }
+#define LAYOUT_INDEXED  // A range can be fetched by its place, the x that the iterator had before it.
+vec4 layout_at(uint place) { return texelFetch(ranges, int(place - range_base())); }
 #ifdef GN_RANGE_EXIT
 layout(binding = 18) uniform samplerBuffer range_exits;
 float layout_exit_depth(ListIterator it) { return texelFetch(range_exits, int(it.x - range_base())).x; }

@@ -43,6 +43,6 @@ void main() {
         }
         iterators[i] = it;
     }
-    if (shadowed) lit[test.slot] &= ~(1u << params.light);
+    write_lit(i, test, shadowed);
     if (kCount) add_shadow_counts(i, visited, tested, test.here);
 }
