@@ -50,8 +50,8 @@ class Exact : public testing::TestWithParam<SceneCase> {
 protected:
     // At least 99.99 % of both kinds, and what differs is rounding. The two programs' tolerances near the hit differ by design:
     // the reference's is that of the hit, gnomon's that of the scene, which its light-space rounding needs. That alone lets up
-    // to 0.016 % of the shadow tests differ (tube, of grazing triangles; random cubes, in a wide scene), all of them in
-    // gnomon's favour of light.
+    // to 0.016 % of the shadow tests differ (tube, of grazing triangles; random cubes, in a wide scene), all of them lit in
+    // gnomon.
     static void expect_agreement(uint32_t width, uint32_t height, const std::vector<uint32_t>& resolutions) {
         const SceneCase& c = GetParam();
         if (!c.make) GN_SKIP_WITHOUT_ASSETS();

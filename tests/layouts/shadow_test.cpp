@@ -17,6 +17,7 @@ struct ShadowSetup {
     uint32_t band_share = 1;  ///< The S-buffer is cut into at least so many bands, if it can be.
     uint64_t most_slots = 1u << 20;
     uint32_t resolution = 64;
+    bool counting = false;  ///< Of the ranges that are visited.
 };
 
 constexpr uint32_t kSpp = 4, kSeed = 3;
@@ -51,7 +52,7 @@ protected:
             answers.bands = std::max(answers.bands, side.bands.size());
         }
         Sampler sampler(device(), programs(), geometry, view, bins, "sample/shadow@" + setup.layout, kSpp, kSeed,
-                        static_cast<uint32_t>(sides.size()), setup.most_slots, false);
+                        static_cast<uint32_t>(sides.size()), setup.most_slots, false, setup.counting);
         answers.triangle.assign(size_t(size.x) * size.y * kSpp, SampleRecord::kMiss);
         answers.lit.assign(answers.triangle.size(), 0);
         for (const Batch& batch : split_batches(bins.grid, kSpp, setup.most_slots)) {
@@ -156,7 +157,7 @@ TEST_F(ShadowTest, CellsBandsAndBatchesDoNotMatter) {
     for (const std::string& layout : layout_names()) {
         if (!find_layout(layout).lossless) continue;
         for (const ShadowSetup& setup : {ShadowSetup{layout, 8, 1, 1u << 20, 256}, ShadowSetup{layout, 2, 3, 1u << 20, 256},
-                                         ShadowSetup{layout, 4, 3, 256, 256}}) {
+                                         ShadowSetup{layout, 4, 3, 256, 256, true}}) {
             const Answers answers = run(scene, size, setup);
             EXPECT_GE(answers.bands, std::min(2u, setup.band_share));
             EXPECT_EQ(answers.triangle, expected.triangle);

@@ -36,7 +36,7 @@ std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup&
     const View view = soup.view();
     const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells);
     Sampler sampler(device, programs, geometry, view, bins, "sample/shadow@array", sampling.spp, sampling.seed, 0,
-                    sampling.most_slots, false);
+                    sampling.most_slots, false, false);
     std::vector<uint32_t> found(size_t(soup.width) * soup.height * sampling.spp, 0xdeadbeefu);
     uint64_t hits = 0;
     for (const Batch& batch : split_batches(bins.grid, sampling.spp, sampling.most_slots)) {

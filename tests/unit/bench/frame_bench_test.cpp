@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// The benchmark's command on its smallest settings: what it writes, not how fast it is.
+#include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace gnomon {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+
+int exit_code_of(const std::string& arguments) {
+    const int status = std::system((std::string(GNOMON_FRAME_BENCH) + " " + arguments).c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string text_of(const fs::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+}
+
+class FrameBench : public testing::Test {
+protected:
+    void SetUp() override { fs::create_directories(folder_); }
+    void TearDown() override { fs::remove_all(folder_); }
+
+    fs::path folder_ = fs::temp_directory_path() / ("frame_bench_test." + std::to_string(getpid()));
+};
+
+void expect_members(const json& object, std::initializer_list<const char*> names) {
+    for (const char* name : names) EXPECT_TRUE(object.contains(name)) << name << " is missing";
+}
+
+void expect_entry(const json& entry, const std::string& program) {
+    EXPECT_EQ(entry["name"], "frame/two-cubes/spp:1/" + program);
+    EXPECT_EQ(entry["program"], program);
+    EXPECT_EQ(entry["spp"], 1);
+    EXPECT_EQ(entry["time_unit"], "s");
+    for (const char* seconds : {"wall_seconds", "cpu_seconds"}) {
+        expect_members(entry[seconds], {"median", "min", "max"});
+        EXPECT_EQ(entry[seconds]["runs"].size(), 1u) << seconds;
+    }
+    EXPECT_GT(entry["real_time"], 0.0);
+    EXPECT_EQ(entry["real_time"], entry["wall_seconds"]["median"]);
+    EXPECT_EQ(entry["cpu_time"], entry["cpu_seconds"]["median"]);
+    EXPECT_GT(entry["busy_share"], 0.0);
+    EXPECT_FALSE(entry["stages"].empty());
+    EXPECT_EQ(entry["counts"]["samples"], 64 * 48);
+}
+
+TEST_F(FrameBench, SmallestFrame) {
+    const fs::path json_file = folder_ / "bench.json", markdown_file = folder_ / "bench.md";
+    ASSERT_EQ(exit_code_of("--scenes two-cubes --spp 1 --repeat 1 --scale 0.0625 --threads 2 --json " + json_file.string() +
+                           " --markdown " + markdown_file.string()),
+              0);
+
+    const json bench = json::parse(text_of(json_file));
+    const json& context = bench["context"];
+    expect_members(context, {"date", "num_cpus", "cpu", "load_avg", "library_build_type", "device", "device_type", "driver"});
+    expect_members(context["versions"], {"gnomon", "compiler"});
+    EXPECT_THAT(context["versions"]["embree"].get<std::string>(), HasSubstr("Embree 3"));
+    EXPECT_EQ(context["width"], 64);
+    EXPECT_EQ(context["height"], 48);
+    EXPECT_EQ(context["shadow_res"], 64);
+    EXPECT_EQ(context["threads"], 2);
+    EXPECT_EQ(context["repetitions"], 1);
+
+    ASSERT_EQ(bench["benchmarks"].size(), 2u);
+    const json &gnomon = bench["benchmarks"][0], &embree = bench["benchmarks"][1];
+    expect_entry(gnomon, "gnomon");
+    expect_entry(embree, "embree");
+
+    EXPECT_GT(gnomon["peak_bytes"], 0);
+    EXPECT_GT(gnomon["buffers"]["bin_entries"], 0);
+    EXPECT_EQ(gnomon["effective"]["method"], "exact");
+    EXPECT_DOUBLE_EQ(gnomon["embree_over_gnomon"]["median"].get<double>(),
+                     embree["real_time"].get<double>() / gnomon["real_time"].get<double>());
+    const json& work = gnomon["work"];
+    for (const char* name : {"light_entries", "ranges", "tests_per_sample", "traced_tests", "ranges_per_second",
+                             "visited_per_shadow_test", "tested_per_shadow_test"}) {
+        EXPECT_GT(work[name], 0) << name;
+    }
+    if (context["device_type"] == "cpu") {
+        for (const char* name : {"core_ns_per_8_tests", "trace_yardstick_seconds", "raster_yardstick_seconds"}) {
+            EXPECT_GT(work[name], 0.0) << name;
+        }
+    }
+    EXPECT_EQ(gnomon["agreement"]["samples"], 64 * 48);
+    EXPECT_GT(gnomon["agreement"]["hits"], 0.99);
+    EXPECT_GT(gnomon["agreement"]["shadows"], 0.99);
+
+    ASSERT_EQ(embree["trials"].size(), 2u);
+    const json& faster = embree["trials"][embree["trials"][0]["wall_seconds"] <= embree["trials"][1]["wall_seconds"] ? 0 : 1];
+    EXPECT_EQ(embree["segments"], faster["segments"]);
+    EXPECT_EQ(embree["counts"]["time_steps"], embree["segments"].get<int>() + 1);
+
+    const std::string markdown = text_of(markdown_file);
+    for (const char* part : {"### Whole frames", "### Work", "### Seconds per stage, gnomon", "sample/trace", "### Yardsticks",
+                             "| two-cubes | 1 |", "### Largest buffers"}) {
+        EXPECT_THAT(markdown, HasSubstr(part));
+    }
+}
+
+TEST_F(FrameBench, NamesWhatItCannotDo) {
+    EXPECT_EQ(exit_code_of("--scenes teapot"), 2);
+    EXPECT_EQ(exit_code_of("--spp 0"), 2);
+    EXPECT_EQ(exit_code_of("--json " + (folder_ / "nowhere/bench.json").string()), 3);
+}
+
+}  // namespace
+}  // namespace gnomon

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// frame_bench: whole frames of gnomon and of the reference in turn.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <gnomon/error.hpp>
+#include <gnomon/version.hpp>
+#include <iostream>
+#include <new>
+#include <thread>
+
+#include "bench/report.hpp"
+#include "io/atomic_file.hpp"
+
+namespace {
+
+using namespace gnomon;
+
+struct Options {
+    std::string json, markdown, device;
+    std::vector<std::string> scenes = bench::scene_names();
+    std::vector<uint32_t> spp = {4, 8, 20, 64};
+    uint32_t repeat = 3;
+    uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
+    double scale = 1.0;
+};
+
+void add_options(CLI::App& app, Options& o) {
+    app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
+    app.add_option("--json", o.json, "Everything that was measured; - for stdout")->type_name("FILE.json");
+    app.add_option("--markdown", o.markdown, "The tables; they go to stdout otherwise")->type_name("FILE.md");
+    app.add_option("--scenes", o.scenes, "Which scenes")->delimiter(',')->type_name("NAME,...")->capture_default_str();
+    app.add_option("--spp", o.spp, "Samples per pixel")
+        ->delimiter(',')
+        ->type_name("N,...")
+        ->check(CLI::Range(1, 65536).description(""))
+        ->capture_default_str();
+    app.add_option("--scale", o.scale, "Of the sides of image and shadow map; triangles keep their size in pixels")
+        ->type_name("F")
+        ->check(CLI::Range(0.01, 4.0).description(""))
+        ->capture_default_str();
+    app.add_option("--repeat", o.repeat, "Timed pairs of frames")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1000).description(""))
+        ->capture_default_str();
+    app.add_option("--threads", o.threads, "Threads of the reference and of lavapipe")
+        ->type_name("N")
+        ->envname("LP_NUM_THREADS")
+        ->check(CLI::Range(1, 1024).description(""))
+        ->capture_default_str();
+    app.add_option("--device", o.device, "Which Vulkan device [the first hardware device, else a CPU]")
+        ->type_name("NAME|INDEX");
+}
+
+uint32_t scaled(uint32_t side, double scale) { return static_cast<uint32_t>(std::max(1.0, std::round(side * scale))); }
+
+// After every row, so that an interrupted benchmark leaves what it has measured.
+void write_files(const Options& options, const bench::Context& context, const std::vector<bench::Row>& rows) {
+    if (!options.json.empty() && options.json != "-") {
+        io::write_file(options.json, bench::to_json(context, rows).dump(2) + "\n");
+    }
+    if (!options.markdown.empty()) io::write_file(options.markdown, bench::to_markdown(context, rows));
+}
+
+void run(const Options& options) {
+    for (const std::string& file : {options.json, options.markdown}) {
+        if (!file.empty() && file != "-") io::check_writable(file);
+    }
+    // Mesa reads it when the driver is loaded.
+    setenv("LP_NUM_THREADS", std::to_string(options.threads).c_str(), 1);
+    Renderer renderer(options.device);
+    bench::Context context{renderer.device(), {}, options.scale};
+    bench::Settings& settings = context.settings;
+    settings.width = scaled(settings.width, options.scale);
+    settings.height = scaled(settings.height, options.scale);
+    settings.shadow_res = scaled(settings.shadow_res, options.scale);
+    settings.threads = options.threads;
+    settings.repeat = options.repeat;
+    if (context.device.type != "cpu") {
+        std::cerr << "frame_bench: warning: " << context.device.name << " is not a CPU: --threads is for the reference only\n";
+    }
+
+    std::vector<bench::Row> rows;
+    for (const std::string& name : options.scenes) {
+        const bench::PosedScene posed = bench::make_scene(name, options.scale);
+        for (const uint32_t spp : options.spp) {
+            bench::Settings row_settings = settings;
+            row_settings.spp = spp;
+            rows.push_back(bench::measure_row(renderer, name, posed, row_settings, [&](const std::string& what) {
+                std::cerr << "frame_bench: " << name << ", " << spp << " spp: " << what << '\n';
+            }));
+            write_files(options, context, rows);
+        }
+    }
+    if (options.json == "-") {
+        std::cout << bench::to_json(context, rows).dump(2) << '\n';
+    } else if (options.markdown.empty()) {
+        std::cout << bench::to_markdown(context, rows);
+    }
+}
+
+int fail(const std::string& message, ErrorKind kind) {
+    std::cerr << "frame_bench: error: " << message << '\n';
+    return static_cast<int>(kind);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Times whole frames of gnomon and of the Embree reference in turn.", "frame_bench");
+    Options options;
+    add_options(app, options);
+    try {
+        app.parse(argc, argv);
+        run(options);
+        return 0;
+    } catch (const CLI::Success& request) {  // --help or --version
+        return app.exit(request);
+    } catch (const CLI::ParseError& error) {
+        return fail(std::string(error.what()) + ", command line; see 'frame_bench --help'", ErrorKind::usage);
+    } catch (const Error& error) {
+        return fail(error.what(), error.kind());
+    } catch (const std::bad_alloc&) {
+        return fail("out of memory, on the host; use a smaller --scale or fewer --spp", ErrorKind::out_of_memory);
+    } catch (const std::exception& error) {
+        return fail(std::string("internal error: ") + error.what(), ErrorKind::internal);
+    }
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rows of a benchmark as JSON.
+#include "bench/report.hpp"
+
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+#include <gnomon/version.hpp>
+#include <thread>
+
+namespace gnomon::bench {
+namespace {
+
+std::string utc_now() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text;
+}
+
+// As the system calls it; null where it does not say.
+Json cpu_name() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const size_t colon = line.find(": ");
+        if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
+    }
+    return nullptr;
+}
+
+Json load_average() {
+    double loads[3] = {};
+    const int count = getloadavg(loads, 3);
+    return count == 3 ? Json{loads[0], loads[1], loads[2]} : Json(nullptr);
+}
+
+Json context_json(const Context& context, const std::vector<Row>& rows) {
+    const Settings& s = context.settings;
+    Json versions = {{"gnomon", GNOMON_VERSION}, {"embree", nullptr}, {"compiler", __VERSION__}};
+    if (!rows.empty()) {
+        const std::string& embree = rows.front().embree_stats.device;  // "Embree 3.13.5, 2 threads"
+        versions["embree"] = embree.substr(0, embree.find(','));
+    }
+#ifdef NDEBUG
+    const char* build = "release";
+#else
+    const char* build = "debug";
+#endif
+    return {{"date", utc_now()},
+            {"num_cpus", std::thread::hardware_concurrency()},
+            {"cpu", cpu_name()},
+            {"load_avg", load_average()},
+            {"library_build_type", build},
+            {"device", context.device.name},
+            {"device_type", context.device.type},
+            {"driver", context.device.driver},
+            {"versions", versions},
+            {"width", s.width},
+            {"height", s.height},
+            {"shadow_res", s.shadow_res},
+            {"threads", s.threads},
+            {"repetitions", s.repeat},
+            {"scale", context.scale}};
+}
+
+Json summary_json(const Summary& summary) {
+    return {{"median", summary.median}, {"min", summary.min}, {"max", summary.max}, {"runs", summary.runs}};
+}
+
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+
+// What the entries of both programs have.
+Json entry_json(const Row& row, const std::string& program, const Timing& timing, const FrameStats& stats) {
+    Json stages = Json::array();
+    for (const FrameStats::Stage& stage : timing.stages) {
+        stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"dispatches", stage.dispatches}});
+    }
+    const Settings& s = row.settings;
+    const std::string name = "frame/" + row.scene + "/spp:" + std::to_string(s.spp) + "/" + program;
+    return {{"name", name},
+            {"run_name", name},
+            {"run_type", "iteration"},
+            {"scene", row.scene},
+            {"spp", s.spp},
+            {"program", program},
+            {"threads", s.threads},
+            {"repetitions", s.repeat},
+            {"iterations", 1},
+            {"real_time", timing.wall.median},
+            {"cpu_time", timing.cpu.median},
+            {"time_unit", "s"},
+            {"wall_seconds", summary_json(timing.wall)},
+            {"cpu_seconds", summary_json(timing.cpu)},
+            {"busy_share", timing.cpu.median / (timing.wall.median * s.threads)},
+            {"stages", stages},
+            {"counts", stats.counts}};
+}
+
+Json work_json(const Work& work) {
+    return {{"light_entries", work.light_entries},
+            {"ranges", work.ranges},
+            {"tests_per_sample", work.tests_per_sample},
+            {"traced_tests", work.traced_tests},
+            {"core_ns_per_8_tests", optional_json(work.core_ns_per_8_tests)},
+            {"ranges_per_second", optional_json(work.ranges_per_second)},
+            {"visited_per_shadow_test", optional_json(work.visited_per_shadow_test)},
+            {"tested_per_shadow_test", optional_json(work.tested_per_shadow_test)},
+            {"trace_yardstick_seconds", optional_json(work.trace_yardstick_seconds)},
+            {"raster_yardstick_seconds", optional_json(work.raster_yardstick_seconds)}};
+}
+
+Json gnomon_json(const Row& row) {
+    Json entry = entry_json(row, "gnomon", row.gnomon, row.gnomon_stats);
+    entry["effective"] = row.effective;
+    entry["buffers"] = row.gnomon_stats.buffer_bytes;
+    entry["peak_bytes"] = row.gnomon_stats.peak_bytes;
+    entry["embree_over_gnomon"] = summary_json(row.ratio);
+    entry["work"] = work_json(row.work);
+    entry["agreement"] = {{"samples", row.agreement.samples},
+                          {"hits", row.agreement.hit_share()},
+                          {"shadow_tests", row.agreement.shadow_tests},
+                          {"shadows", row.agreement.shadow_share()}};
+    return entry;
+}
+
+Json embree_json(const Row& row) {
+    Json entry = entry_json(row, "embree", row.embree, row.embree_stats);
+    entry["segments"] = row.embree_segments;
+    entry["trials"] = Json::array();
+    for (const Trial& trial : row.trials) {
+        entry["trials"].push_back({{"segments", trial.segments}, {"wall_seconds", trial.wall_seconds}});
+    }
+    return entry;
+}
+
+}  // namespace
+
+Json to_json(const Context& context, const std::vector<Row>& rows) {
+    Json json = {{"context", context_json(context, rows)}, {"benchmarks", Json::array()}};
+    for (const Row& row : rows) {
+        json["benchmarks"].push_back(gnomon_json(row));
+        json["benchmarks"].push_back(embree_json(row));
+    }
+    return json;
+}
+
+}  // namespace gnomon::bench

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// How much work a frame was, from its counts, and what that work would cost at best.
+#include "bench/work.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <gnomon/error.hpp>
+
+#include "math/sample.h"
+#include "shared/params.h"
+
+namespace gnomon::bench {
+namespace {
+
+uint64_t count(const Frame& frame, const std::string& name) {
+    const auto it = frame.stats.counts.find(name);
+    if (it != frame.stats.counts.end()) return it->second;
+    throw Error(ErrorKind::internal, "a frame without the count " + name, "frame_bench", "report this");
+}
+
+uint64_t sum_over_lights(const Frame& frame, const std::string& prefix) {
+    uint64_t sum = 0;
+    for (uint32_t light = 0; light < frame.light_count; ++light) {
+        const auto it = frame.stats.counts.find(prefix + std::to_string(light));
+        if (it != frame.stats.counts.end()) sum += it->second;  // Point lights have none.
+    }
+    return sum;
+}
+
+std::optional<double> ratio(double numerator, double denominator) {
+    return denominator > 0.0 ? std::optional(numerator / denominator) : std::nullopt;
+}
+
+}  // namespace
+
+uint64_t list_walks(uint32_t spp, uint32_t cell_count) {
+    if (spp % cell_count == 0) return spp;
+    // As sample/trace goes through them.
+    uint64_t walks = 0;
+    const auto cell_at = [&](uint32_t stratum) {
+        return shared::cell_of(static_cast<float>(stratum) / static_cast<float>(spp), cell_count);
+    };
+    for (uint32_t s = 0; s < spp; ++s) walks += cell_at(s + 1) - cell_at(s) + 1;
+    return walks;
+}
+
+double seconds_of(const std::vector<FrameStats::Stage>& stages, const std::vector<std::string>& names) {
+    double sum = 0.0;
+    for (const FrameStats::Stage& stage : stages) {
+        if (std::find(names.begin(), names.end(), stage.name) != names.end()) sum += stage.seconds;
+    }
+    return sum;
+}
+
+Work work_of(const Frame& counted, const std::vector<FrameStats::Stage>& stages, uint32_t threads) {
+    const double trace_seconds = seconds_of(stages, {"sample/trace"});
+    const double raster_seconds = seconds_of(stages, {"raster/count", "raster/fill"});
+    const double pixels = double(counted.width) * counted.height;
+    const auto samples = static_cast<double>(count(counted, "samples"));
+    const auto entries = static_cast<double>(count(counted, "bin_entries.camera"));
+    const auto shadow_tests = static_cast<double>(count(counted, "shadow_tests"));
+    const auto spp = static_cast<uint32_t>(samples / pixels);
+    const auto cells = static_cast<uint32_t>(std::stoul(counted.effective.at("camera_cells")));
+
+    Work work;
+    work.light_entries = sum_over_lights(counted, "bin_entries.");
+    work.ranges = sum_over_lights(counted, "ranges.");
+    // A list serves its tile's pixels, spp / cells samples of each; tiles at the image's border count as whole ones.
+    work.tests_per_sample = entries * shared::kTileTexels / cells / pixels;
+    work.traced_tests = entries * shared::kTileTexels * static_cast<double>(list_walks(spp, cells)) / cells;
+    work.ranges_per_second = ratio(static_cast<double>(work.ranges), raster_seconds);
+    work.visited_per_shadow_test = ratio(static_cast<double>(count(counted, "ranges_visited")), shadow_tests);
+    work.tested_per_shadow_test = ratio(static_cast<double>(count(counted, "ranges_tested")), shadow_tests);
+    if (threads > 0) {
+        work.core_ns_per_8_tests = ratio(trace_seconds * 1e9 * threads, work.traced_tests / 8.0);
+        work.trace_yardstick_seconds = work.traced_tests / 8.0 * kTraceYardstickNs * 1e-9 / threads;
+        work.raster_yardstick_seconds =
+            static_cast<double>(work.light_entries) * shared::kTileTexels / 8.0 * kRasterYardstickNs * 1e-9 / threads;
+    }
+    return work;
+}
+
+Agreement agreement_of(const Frame& frame, const Frame& reference) {
+    assert(frame.samples.size() == reference.samples.size() && frame.light_count == reference.light_count);
+    Agreement result;
+    result.samples = frame.samples.size();
+    for (size_t i = 0; i < frame.samples.size(); ++i) {
+        const SampleRecord& a = frame.samples[i];
+        const SampleRecord& b = reference.samples[i];
+        if (a.triangle != b.triangle) continue;
+        ++result.hits_agree;
+        if (a.triangle == SampleRecord::kMiss) continue;
+        const uint32_t differ = (a.lit ^ b.lit) & (frame.light_count == 32 ? ~0u : (1u << frame.light_count) - 1u);
+        result.shadow_tests += frame.light_count;
+        result.shadows_agree += frame.light_count - static_cast<uint32_t>(std::popcount(differ));
+    }
+    return result;
+}
+
+}  // namespace gnomon::bench
