@@ -29,7 +29,11 @@ void add_options(CLI::App& app, Options& o) {
     app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
     app.add_option("--json", o.json, "Everything that was measured; - for stdout")->type_name("FILE.json");
     app.add_option("--markdown", o.markdown, "The tables; they go to stdout otherwise")->type_name("FILE.md");
-    app.add_option("--scenes", o.scenes, "Which scenes")->delimiter(',')->type_name("NAME,...")->capture_default_str();
+    app.add_option("--scenes", o.scenes, "Which scenes")
+        ->delimiter(',')
+        ->type_name("NAME,...")
+        ->check(CLI::IsMember(bench::scene_names()).description(""))
+        ->capture_default_str();
     app.add_option("--spp", o.spp, "Samples per pixel")
         ->delimiter(',')
         ->type_name("N,...")
