@@ -19,6 +19,7 @@ layout(binding = 3) uniform samplerBuffer raster_vertices;
 layout(binding = 4) uniform samplerBuffer light_vertices;
 layout(binding = 5, scalar) buffer Lit { uint lit[]; };
 layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
+layout(binding = 8) uniform samplerBuffer positions;
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
 layout(push_constant, scalar) uniform Push { ShadowParams params; };
 #include "common/triangle.glsl"
@@ -34,6 +35,17 @@ vec4 light_vertex_at(uint vertex, Receiver h) {
     vec4 a = texelFetch(light_vertices, i);
     vec4 b = texelFetch(light_vertices, i + int(params.camera.vertex_stride));
     return vertex_at(a, b - a, h.local_time);
+}
+
+// Metres along the hit's normal within which nothing occludes: 2^-20 of its largest coordinate, but no less than the light space's own rounding.
+float occlusion_tolerance(Receiver h) {
+    int key = int(h.segment * params.camera.vertex_stride);
+    int next = key + int(params.camera.vertex_stride);
+    vec3 p = vec3(0.0);
+    [[unroll]] for (int k = 0; k < 3; ++k) {
+        p += h.barycentrics[k] * mix(texelFetch(positions, key + int(h.vertex[k])).xyz, texelFetch(positions, next + int(h.vertex[k])).xyz, h.local_time);
+    }
+    return max(max_of(abs(p.x), abs(p.y), abs(p.z)) * (1.0 / 1048576.0), params.tolerance);
 }
 
 // A hit as the light's view holds it.
@@ -69,14 +81,15 @@ ShadowTest shadow_test(uint i) {
     // In the light's own space, metres: the angle between ray and surface turns the tolerance along the normal into one in depth.
     vec2 scale = 1.0 / vec2(params.scale_x, params.scale_y);
     vec4 u = p1 - p0, v = p2 - p0;
+    float tolerance = occlusion_tolerance(h);
     bool in_cone = true;
     if (kOrthographic) {
         vec3 n = cross3(vec3(u.xy * scale, u.z), vec3(v.xy * scale, v.z));
-        test.limit = depth - params.tolerance * sqrt(dot(n, n)) / abs(n.z);
+        test.limit = depth - tolerance * sqrt(dot(n, n)) / abs(n.z);
     } else {
         vec3 q = vec3(p.xy * scale, p.w);
         vec3 n = cross3(vec3(u.xy * scale, u.w), vec3(v.xy * scale, v.w));
-        test.limit = depth + depth * (params.tolerance * sqrt(dot(n, n)) / abs(dot(n, q)));
+        test.limit = depth + depth * (tolerance * sqrt(dot(n, n)) / abs(dot(n, q)));
         in_cone = q.z > 0.0 && q.x * q.x + q.y * q.y <= q.z * q.z * params.cone_tan2;
     }
 

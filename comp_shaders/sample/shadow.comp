@@ -4,7 +4,7 @@
 // Reads:   queue, hits, triangles, raster_vertices (camera), light_vertices, the layout's buffers
 // Writes:  Lit (per slot: bit `light`), ShadowCounts (ranges visited, ranges tested), Iterators (when lists are walked in parts)
 // Grid:    one invocation per hit
-// Source:  math/cover.h; a hit triangle does not occlude itself, and nothing within `tolerance` of the hit along its normal does
+// Source:  math/cover.h; a hit triangle does not occlude itself, and nothing within a tolerance along its normal does (occlusion_tolerance)
 #extension GL_GOOGLE_include_directive : require
 #include "common/shadow_test.glsl"
 #include "common/candidates.glsl"

@@ -15,9 +15,11 @@ layout(binding = 2, scalar) writeonly buffer Values { uint result[]; };
 layout(push_constant, scalar) uniform Push { ScanParams params; };
 
 void main() {
-    uint run = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint number = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint run = params.run_first + number;
+    uint bound_first = params.run_first * kScanRun;
     uint first = run * kScanRun;
-    uint end = min(first + kScanRun, params.count);
+    uint end = number < params.run_count ? min(first + kScanRun, params.count) : first;
     uint sum = texelFetch(sums, int(run)).x;
     uint i = first;
     while (i < end) {
@@ -28,10 +30,10 @@ void main() {
         before.z = saturating_add(before.y, v.y);
         before.w = saturating_add(before.z, v.z);
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
-            if (i + j < end) result[i + j] = before[j];
+            if (i + j < end) result[i + j - bound_first] = before[j];
         }
         sum = saturating_add(before.w, v.w);
         i += 4u;
     }
-    if (first < params.count && end == params.count) result[params.count] = sum;
+    if (first < params.count && end == params.count) result[params.count - bound_first] = sum;
 }

@@ -68,7 +68,9 @@ struct BinParams {
 };
 
 struct ScanParams {
-    uint count;
+    uint count;      // Elements of the whole array.
+    uint run_first;  // scan/spread: the first run of this dispatch, whose first element is the first of the bound memory.
+    uint run_count;
 };
 
 struct RasterParams {
@@ -112,7 +114,7 @@ struct ShadowParams {
     float scale_x;    // Raster units per metre (orthographic), or per unit slope (perspective).
     float scale_y;
     float cone_tan2;  // Squared tangent of a spot's outer half angle.
-    float tolerance;  // Metres along the hit's normal within which nothing occludes.
+    float tolerance;  // The least metres along a hit's normal within which nothing occludes.
     float depth_near; // Occluders are deeper than this.
     uint item_first;  // Items of the light's view whose ranges are in memory.
     uint item_count;

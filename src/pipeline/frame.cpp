@@ -203,7 +203,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         for (LightSide& side : sides) {
             for (const Band& band : side.bands) {
                 if (side.bands.size() > 1) side.s_buffer->fill(band);
-                sampler.test_shadows(side, band, occlusion_tolerance(bounds));
+                sampler.test_shadows(side, band, least_tolerance(bounds));
             }
         }
         sampler.shade(lights, !lights_still(poses));

@@ -37,7 +37,8 @@ ViewKey perspective_key(const Rigid& frame, double scale_x, double scale_y) {
 
 ViewKey orthographic_key(const Rigid& frame, const glm::dvec3& origin, double scale_x, double scale_y, double x, double y) {
     Axes a = axes_of(frame);
-    return make_key(origin, glm::dmat4x3(scale_x * a.right, -scale_y * a.up, -a.back, glm::dvec3(0.0)), glm::dvec4(x, y, 0.0, 1.0));
+    return make_key(origin, glm::dmat4x3(scale_x * a.right, -scale_y * a.up, -a.back, glm::dvec3(0.0)),
+                    glm::dvec4(x, y, 0.0, 1.0));
 }
 
 View directional_view(const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution) {
@@ -70,7 +71,8 @@ View directional_view(const std::vector<Pose>& poses, uint32_t light_ix, const B
     return view;
 }
 
-View spot_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution) {
+View spot_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
+               uint32_t resolution) {
     constexpr double kWidest = 1.5533430342749532;  // 89 degrees
     if (light.outer_cone >= kWidest) {
         throw Error(ErrorKind::input, "the outer cone of spot light '" + light.name + "' is 89 degrees or more from its axis",
@@ -80,7 +82,7 @@ View spot_view(const Light& light, const std::vector<Pose>& poses, uint32_t ligh
     double scale = 0.5 * resolution / slope * (1.0 - 1e-5);
     View view;
     view.width = view.height = resolution;
-    view.depth_near = -1.0f / occlusion_tolerance(bounds);
+    view.depth_near = -1.0f / least_tolerance(bounds);
     view.depth_far = 0.0f;
     view.scale_x = view.scale_y = static_cast<float>(scale);
     view.cone_tan2 = static_cast<float>(slope * slope);
@@ -112,18 +114,23 @@ View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t 
     return view;
 }
 
-View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution) {
+View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
+                uint32_t resolution) {
     switch (light.kind) {
-        case LightKind::directional: return directional_view(poses, light_ix, bounds, resolution);
-        case LightKind::spot: return spot_view(light, poses, light_ix, bounds, resolution);
-        case LightKind::point: break;
+        case LightKind::directional:
+            return directional_view(poses, light_ix, bounds, resolution);
+        case LightKind::spot:
+            return spot_view(light, poses, light_ix, bounds, resolution);
+        case LightKind::point:
+            break;
     }
-    throw Error(ErrorKind::internal, "a point light has no single view", "lights[" + std::to_string(light_ix) + "]", "report this as a bug");
+    throw Error(ErrorKind::internal, "a point light has no single view", "lights[" + std::to_string(light_ix) + "]",
+                "report this as a bug");
 }
 
-float occlusion_tolerance(const Bounds& bounds) {
+float least_tolerance(const Bounds& bounds) {
     glm::vec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
-    return std::ldexp(std::max({largest.x, largest.y, largest.z, 1e-30f}), -20);
+    return std::ldexp(std::max({largest.x, largest.y, largest.z, 1e-30f}), -23);
 }
 
 }  // namespace gnomon

@@ -35,7 +35,8 @@ View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t 
 /// Errors: ErrorKind::input for a cone that no plane holds (half angle of 89 degrees or more); point lights are not views.
 View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution);
 
-/// Metres along a hit's normal within which nothing occludes: 2^-20 of the scene's largest coordinate.
-float occlusion_tolerance(const Bounds& bounds);
+/// The least metres along a hit's normal within which nothing occludes it: 2^-23 of the scene's largest coordinate, the rounding of a
+/// light's space. At most hits 2^-20 of their own largest coordinate is more, and taken.
+float least_tolerance(const Bounds& bounds);
 
 }  // namespace gnomon

@@ -129,7 +129,11 @@ void build_lights(const Document& document, const std::vector<bool>& shown, Scen
         light.name = model.nodes[n].name.empty() ? from.name : model.nodes[n].name;
         light.node = static_cast<int32_t>(n);
         if (from.type == "spot") light.kind = LightKind::spot;
-        if (from.type == "point") light.kind = LightKind::point;
+        if (from.type == "point") {
+            light.kind = LightKind::point;
+            scene.warnings.push_back("the point light of " + node_label(model, n) +
+                                     " contributes nothing: point lights are not supported");
+        }
         light.color = vector_of(from.color, glm::dvec3(1.0));
         light.intensity = static_cast<float>(from.intensity);
         light.range = static_cast<float>(from.range);

@@ -16,7 +16,12 @@ void record_project(Programs& programs, gpu::Recorder& recorder, const Geometry&
     uint64_t key_bytes = uint64_t(geometry.vertex_stride) * sizeof(glm::vec4);
     for (size_t k = 0; k < view.keys.size(); ++k) {
         const ViewKey& key = view.keys[k];
-        shared::ProjectParams params{key.row_x,  key.row_y,  key.row_z, key.row_w, key.origin, geometry.vertex_count,
+        shared::ProjectParams params{key.row_x,
+                                     key.row_y,
+                                     key.row_z,
+                                     key.row_w,
+                                     key.origin,
+                                     geometry.vertex_count,
                                      static_cast<uint32_t>(k * geometry.vertex_stride)};
         recorder.dispatch("setup/project", programs.get("setup/project"),
                           bindings({{"positions", &geometry.positions, Texel::rgba32_float},
@@ -72,7 +77,9 @@ Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometr
         const char* stage = fill ? "bin/fill" : "bin/count";
         for (uint32_t cell = 0; cell < cell_count; ++cell) {
             recorder.dispatch(stage, programs.get("bin/small", {fill}),
-                              bindings({{"rects", &rects, Texel::rg32_uint, cell * rect_stride, rect_stride}, {"Lists", &lists}, {"Entries", &entries}}),
+                              bindings({{"rects", &rects, Texel::rg32_uint, cell * rect_stride, rect_stride},
+                                        {"Lists", &lists},
+                                        {"Entries", &entries}}),
                               params(cell), triangle_groups);
             if (!fill && large_blocks > 0) {
                 recorder.dispatch("bin/blocks", programs.get("bin/blocks"),
@@ -102,11 +109,12 @@ Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometr
     bins.entry_count = gpu::download_vector<uint32_t>(device, bins.offsets, 1, list_count * 4)[0];
     bins.longest = longest_of(device, scan);
     if (bins.entry_count == shared::kNone) {
-        throw Error(ErrorKind::out_of_memory, "more than 2^32 prisms in the tiles of a view", std::to_string(view.width) + "x" + std::to_string(view.height),
-                    "use a smaller --size or --shadow-res");
+        throw Error(ErrorKind::out_of_memory, "more than 2^32 prisms in the tiles of a view",
+                    std::to_string(view.width) + "x" + std::to_string(view.height), "use a smaller --size or --shadow-res");
     }
     if (uint64_t(bins.entry_count) * 4 > device.limits().max_storage_range) {
-        throw Error(ErrorKind::out_of_memory, std::to_string(bins.entry_count) + " prisms in the tiles of a view are more than the device can bind",
+        throw Error(ErrorKind::out_of_memory,
+                    std::to_string(bins.entry_count) + " prisms in the tiles of a view are more than the device can bind",
                     std::to_string(view.width) + "x" + std::to_string(view.height), "use a smaller --size or --shadow-res");
     }
     bins.entries = device.allocate("bin_entries", uint64_t(bins.entry_count) * 4);

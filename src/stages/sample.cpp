@@ -100,6 +100,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                      {"triangles", &geometry_.triangles, Texel::rgba32_uint},
                                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                      {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
+                                     {"positions", &geometry_.positions, Texel::rgba32_float},
                                      {"Lit", &lit_},
                                      {"ShadowCounts", &shadow_counts_},
                                      {"Iterators", &iterators_}};
@@ -134,8 +135,8 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     part};
         recorder.dispatch(
             "sample/shadow",
-            programs_.get(shadow_stage_, {light.view.orthographic, view_.orthographic, straddle_, counting_, parts > 1, first}), all,
-            params, groups_of(queue_count_, 64));
+            programs_.get(shadow_stage_, {light.view.orthographic, view_.orthographic, straddle_, counting_, parts > 1, first}),
+            all, params, groups_of(queue_count_, 64));
     }
     recorder.submit();
     if (!counting_) {
@@ -156,7 +157,8 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
     if (!lit_written_) recorder.fill("sample/shade", lit_, 0xffffffffu);
     recorder.dispatch(
         "sample/shade",
-        programs_.get("sample/shade", {view_.orthographic, straddle_, depths_, geometry_.textured, geometry_.smooth, lights_move}),
+        programs_.get("sample/shade",
+                      {view_.orthographic, straddle_, depths_, geometry_.textured, geometry_.smooth, lights_move}),
         bindings({{"hits", &hits_, Texel::r32_uint},
                   {"lit", &lit_, Texel::r32_uint},
                   {"triangles", &geometry_.triangles, Texel::rgba32_uint},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/scan.hpp"
 
+#include <algorithm>
+
 #include "shared/params.h"
 #include "stages/grid.hpp"
 
@@ -15,7 +17,8 @@ void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& record
     using gpu::Texel;
     if (count <= kSerialCount) {
         recorder.dispatch("scan", programs.get("scan/serial", {first_level}),
-                          bindings({{"values", &values, Texel::r32_uint}, {"Values", &values}, {"Longest", &scan.longest}}), shared::ScanParams{count}, 1);
+                          bindings({{"values", &values, Texel::r32_uint}, {"Values", &values}, {"Longest", &scan.longest}}),
+                          shared::ScanParams{count, 0, 1}, 1);
         return;
     }
     uint32_t runs = static_cast<uint32_t>(groups_of(count, shared::kScanRun));
@@ -23,11 +26,20 @@ void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& record
     recorder.fill("scan", sums, 0);
     recorder.dispatch("scan", programs.get("scan/reduce", {first_level}),
                       bindings({{"values", &values, Texel::rgba32_uint}, {"Sums", &sums}, {"Longest", &scan.longest}}),
-                      shared::ScanParams{count}, groups_of(runs, 64));
+                      shared::ScanParams{count, 0, runs}, groups_of(runs, 64));
     record_level(device, programs, recorder, sums, runs, false, scan);
-    recorder.dispatch("scan", programs.get("scan/spread"),
-                      bindings({{"values", &values, Texel::rgba32_uint}, {"sums", &sums, Texel::r32_uint}, {"Values", &values}}),
-                      shared::ScanParams{count}, groups_of(runs, 64));
+    // The values are written through bindings of what the device can bind at once; whole runs, and the total behind the last.
+    uint64_t most_runs = std::max<uint64_t>(1, device.limits().max_storage_range / (4 * shared::kScanRun) - 1) / 64 * 64;
+    for (uint64_t first = 0; first < runs; first += most_runs) {
+        uint32_t part = static_cast<uint32_t>(std::min<uint64_t>(most_runs, runs - first));
+        uint64_t offset = first * shared::kScanRun * 4;
+        uint64_t bytes = first + part < runs ? uint64_t(part) * shared::kScanRun * 4 : scan_bytes(count) - offset;
+        recorder.dispatch("scan", programs.get("scan/spread"),
+                          bindings({{"values", &values, Texel::rgba32_uint},
+                                    {"sums", &sums, Texel::r32_uint},
+                                    {"Values", &values, {}, offset, bytes}}),
+                          shared::ScanParams{count, static_cast<uint32_t>(first), part}, groups_of(part, 64));
+    }
     scan.sums.push_back(std::move(sums));
 }
 
@@ -43,6 +55,8 @@ Scan record_scan(gpu::Device& device, Programs& programs, gpu::Recorder& recorde
     return scan;
 }
 
-uint32_t longest_of(gpu::Device& device, const Scan& scan) { return gpu::download_vector<uint32_t>(device, scan.longest, 1)[0]; }
+uint32_t longest_of(gpu::Device& device, const Scan& scan) {
+    return gpu::download_vector<uint32_t>(device, scan.longest, 1)[0];
+}
 
 }  // namespace gnomon

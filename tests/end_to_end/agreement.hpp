@@ -19,7 +19,7 @@ struct Agreement {
     uint64_t shadow_differ = 0;
     uint64_t shadow_judged = 0;
     uint64_t shadow_tolerance =
-        0;  ///< Of those judged: exactly right by gnomon's tolerance near the hit, which is the scene's, not the hit's.
+        0;  ///< Of those judged: exactly right by gnomon's least tolerance near the hit, where that is more than the hit's own.
     uint64_t shadow_wrong = 0;
     double depth_error = 0.0;  ///< Largest relative difference of depth where both hit the same triangle.
     std::string first_wrong;   ///< What and where, for a person.
@@ -30,7 +30,7 @@ struct Agreement {
     double shadow_share() const {
         return shadow_tests > 0 ? 1.0 - static_cast<double>(shadow_differ) / static_cast<double>(shadow_tests) : 1.0;
     }
-    /// As if both had gnomon's tolerance near the hit.
+    /// As if both had gnomon's least tolerance.
     double shadow_share_of_one_tolerance() const {
         const double same =
             shadow_judged > 0 ? 1.0 - static_cast<double>(shadow_tolerance) / static_cast<double>(shadow_judged) : 1.0;

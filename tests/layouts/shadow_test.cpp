@@ -60,7 +60,7 @@ protected:
             for (LightSide& side : sides) {
                 for (const Band& band : side.bands) {
                     side.s_buffer->fill(band);
-                    sampler.test_shadows(side, band, occlusion_tolerance(bounds));
+                    sampler.test_shadows(side, band, least_tolerance(bounds));
                 }
             }
             const std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit();

@@ -176,10 +176,10 @@ SampleJudge::Verdict SampleJudge::shadow(uint32_t triangle, uint32_t light, bool
     const glm::dvec3 far_end = point + toward_light(light, point, sample.t);
     const std::vector<Candidate> occluders = near_line({point, far_end - point}, 0.0, 4.0 * step, sample.t);
     const double at_hit = std::ldexp(std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)}), -20);
-    const double at_scene = std::ldexp(largest_coordinate_, -20);
+    const double at_least = std::max(at_hit, std::ldexp(largest_coordinate_, -23));
     if (light_reaches(point, occluders, triangle, n, light, at_hit, sample.t) == lit) return Verdict::right;
-    if (light_reaches(point, occluders, triangle, n, light, at_scene, sample.t) == lit) return Verdict::tolerance;
-    for (const double tolerance : {at_hit, at_scene}) {
+    if (light_reaches(point, occluders, triangle, n, light, at_least, sample.t) == lit) return Verdict::tolerance;
+    for (const double tolerance : {at_hit, at_least}) {
         for (int i = 0; i < 125; ++i) {
             const glm::dvec3 shift(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2);
             if (light_reaches(point + 0.5 * step * shift, occluders, triangle, n, light, tolerance, sample.t) == lit)

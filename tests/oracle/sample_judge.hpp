@@ -27,7 +27,7 @@ public:
     enum class Verdict {
         right,      ///< What the exact test says.
         tie,        ///< Primary: another triangle of the same depth covers the sample (coincident surfaces).
-        tolerance,  ///< Shadow: right with the scene's tolerance near the hit, not with the hit's.
+        tolerance,  ///< Shadow: right with gnomon's least tolerance near the hit, not with the hit's own.
         border,     ///< Right for a sample or a hit within Rounding.
         wrong,
     };
@@ -43,7 +43,7 @@ public:
     Verdict primary(uint32_t triangle, const SamplePoint& sample) const;
 
     /// Does the light reach the sample's hit on `triangle`? An occluder nearer to the hit, along its normal, than 2^-20 of the
-    /// hit's largest coordinate does not count, one farther than 2^-20 of the scene's does; in between the verdict is
+    /// hit's largest coordinate does not count, one farther than that and than 2^-23 of the scene's does; in between the verdict is
     /// `tolerance`.
     Verdict shadow(uint32_t triangle, uint32_t light, bool lit, const SamplePoint& sample) const;
 

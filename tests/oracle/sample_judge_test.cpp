@@ -13,7 +13,7 @@ using Verdict = SampleJudge::Verdict;
 constexpr uint32_t kMiss = SampleRecord::kMiss;
 
 // Half planes x <= right at height z, seen from z = 8 by an image of 16 x 16 pixels over x, y from -1 to 1: pixel x shows (x -
-// 8) / 8. The largest coordinate is 64, so that steps in space are 64 * 2^-18 = 2.4e-4 and the scene's tolerance is 6.1e-5.
+// 8) / 8. The largest coordinate is 64, so that steps in space are 64 * 2^-18 = 2.4e-4 and the least tolerance is 7.6e-6.
 test::Corners half_plane(float right, float z) { return {{{right, -60.0f, z}, {right, 60.0f, z}, {-64.0f, 0.0f, z}}}; }
 
 test::MovingTriangles scene_of(const std::vector<std::pair<test::Corners, glm::vec3>>& triangles) {
@@ -81,15 +81,15 @@ TEST(SampleJudge, ShadowsFollowTheOccluder) {
 }
 
 TEST(SampleJudge, NearOccludersAreAMatterOfTolerance) {
-    // The hit's largest coordinate is 0.5: its tolerance is 4.8e-7. The scene's is 6.1e-5; steps in space are 2.4e-4.
+    // The hit's largest coordinate is 0.5: its tolerance is 4.8e-7. The least is 7.6e-6; steps in space are 2.4e-4.
     const auto judged = [](float height, bool lit) {
         return shadow(scene_of({{half_plane(0.75f, 0.0f), {}}, {half_plane(0.75f, height), {}}}), lit, {12.0, 8.0, 0.0});
     };
     EXPECT_EQ(judged(4e-7f, true), Verdict::right);
     EXPECT_EQ(judged(6e-7f, false), Verdict::right);
     EXPECT_EQ(judged(6e-7f, true), Verdict::tolerance);
-    EXPECT_EQ(judged(5.5e-5f, true), Verdict::tolerance);
-    EXPECT_EQ(judged(7e-5f, true), Verdict::border);
+    EXPECT_EQ(judged(7e-6f, true), Verdict::tolerance);
+    EXPECT_EQ(judged(9e-6f, true), Verdict::border);
     EXPECT_EQ(judged(3.5e-4f, true), Verdict::wrong);
 }
 

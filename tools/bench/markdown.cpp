@@ -2,6 +2,7 @@
 // The rows of a benchmark as Markdown tables.
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "bench/report.hpp"
 
@@ -15,7 +16,8 @@ constexpr size_t kListedBuffers = 5;
 std::string fixed(double value, int digits) {
     char text[64];
     std::snprintf(text, sizeof(text), "%.*f", digits, value);
-    return text;
+    const bool negative_zero = std::strtod(text, nullptr) == 0.0 && text[0] == '-';
+    return negative_zero ? text + 1 : text;
 }
 
 std::string fixed(const std::optional<double>& value, int digits, double unit = 1.0) {
@@ -90,31 +92,27 @@ std::string work_table(const std::vector<Row>& rows) {
                  }));
 }
 
-// A column for each stage that any row has, and what of the wall time lies in none.
+// A column for each stage that any row has.
 std::string stages_table(const std::string& title, const std::vector<Row>& rows, Timing Row::*program) {
-    Cells head = {"scene", "spp"}, names;
+    Cells names;
     for (const Row& row : rows) {
         for (const FrameStats::Stage& stage : (row.*program).stages) {
             if (std::find(names.begin(), names.end(), stage.name) == names.end()) names.push_back(stage.name);
         }
     }
+    Cells head = {"scene", "spp"};
     head.insert(head.end(), names.begin(), names.end());
     head.push_back("the rest");
     return table(title, head, for_each_row(rows, [&](const Row& row) {
                      const Timing& timing = row.*program;
                      Cells cells;
-                     double rest = timing.wall.median;
-                     for (const std::string& name : names) {
-                         const double seconds = seconds_of(timing.stages, {name});
-                         rest -= seconds;
-                         cells.push_back(fixed(seconds, 4));
-                     }
-                     cells.push_back(fixed(rest, 4));
+                     for (const std::string& name : names) cells.push_back(fixed(seconds_of(timing.stages, {name}), 4));
+                     cells.push_back(fixed(timing.rest.median, 4));
                      return cells;
                  }));
 }
 
-std::string gap_table(const std::vector<Row>& rows) {
+std::string yardsticks_table(const std::vector<Row>& rows) {
     const auto times = [](double seconds, const std::optional<double>& yardstick) {
         return yardstick && *yardstick > 0.0 ? fixed(seconds / *yardstick, 2) : std::string("-");
     };
@@ -153,7 +151,7 @@ std::string to_markdown(const Context& context, const std::vector<Row>& rows) {
                                 std::to_string(s.repeat) + " pairs; " + context.device.name + ", " + context.device.driver +
                                 ". Medians (least to most).\n\n";
     return heading + times_table(rows) + work_table(rows) + stages_table("Seconds per stage, gnomon", rows, &Row::gnomon) +
-           stages_table("Seconds per stage, Embree", rows, &Row::embree) + gap_table(rows) + buffers_table(rows);
+           stages_table("Seconds per stage, Embree", rows, &Row::embree) + yardsticks_table(rows) + buffers_table(rows);
 }
 
 }  // namespace gnomon::bench

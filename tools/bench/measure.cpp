@@ -30,6 +30,9 @@ public:
         Frame frame = render();
         cpu_.push_back(process_cpu_seconds() - before);
         wall_.push_back(frame.stats.wall_seconds);
+        double rest = frame.stats.wall_seconds;
+        for (const FrameStats::Stage& stage : frame.stats.stages) rest -= stage.seconds;
+        rest_.push_back(rest);
         stages_.push_back(frame.stats.stages);
         return frame;
     }
@@ -37,7 +40,7 @@ public:
     double last_wall() const { return wall_.back(); }
 
     Timing timing() const {
-        Timing result{summarize(wall_), summarize(cpu_), stages_.front()};
+        Timing result{summarize(wall_), summarize(cpu_), stages_.front(), summarize(rest_)};
         for (FrameStats::Stage& stage : result.stages) {
             std::vector<double> runs;
             for (const auto& run : stages_) runs.push_back(seconds_of(run, {stage.name}));
@@ -47,7 +50,7 @@ public:
     }
 
 private:
-    std::vector<double> wall_, cpu_;
+    std::vector<double> wall_, cpu_, rest_;
     std::vector<std::vector<FrameStats::Stage>> stages_;
 };
 

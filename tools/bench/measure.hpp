@@ -28,6 +28,7 @@ struct Timing {
     Summary wall;                           ///< Seconds.
     Summary cpu;                            ///< Seconds of all cores that the process used meanwhile.
     std::vector<FrameStats::Stage> stages;  ///< Medians.
+    Summary rest;                           ///< Wall seconds that lie in no stage: the host's, and waiting for the device.
 };
 
 /// The reference with Embree's motion in this many segments, tried once.

@@ -95,6 +95,7 @@ Json entry_json(const Row& row, const std::string& program, const Timing& timing
             {"cpu_seconds", summary_json(timing.cpu)},
             {"busy_share", timing.cpu.median / (timing.wall.median * s.threads)},
             {"stages", stages},
+            {"rest_seconds", summary_json(timing.rest)},
             {"counts", stats.counts}};
 }
 

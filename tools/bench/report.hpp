@@ -29,6 +29,7 @@ struct Context {
 ///     wall_seconds, cpu_seconds            {median, min, max, runs}
 ///     busy_share                           CPU seconds over wall seconds times threads
 ///     stages                               [{name, seconds, dispatches}], medians
+///     rest_seconds                         {median, min, max, runs}, wall seconds that lie in no stage
 ///     counts                               {name: number}
 ///   of gnomon also effective {name: string}, buffers {name: bytes}, peak_bytes, embree_over_gnomon {median, min, max, runs},
 ///     work (the members of bench::Work; null: not known), agreement {samples, hits, shadow_tests, shadows}, hits and shadows

@@ -53,7 +53,10 @@ void expect_entry(const json& entry, const std::string& program) {
     EXPECT_EQ(entry["real_time"], entry["wall_seconds"]["median"]);
     EXPECT_EQ(entry["cpu_time"], entry["cpu_seconds"]["median"]);
     EXPECT_GT(entry["busy_share"], 0.0);
-    EXPECT_FALSE(entry["stages"].empty());
+    double seconds = entry["rest_seconds"]["median"];
+    for (const json& stage : entry["stages"]) seconds += stage["seconds"].get<double>();
+    EXPECT_NEAR(seconds, entry["real_time"].get<double>(), 1e-6);
+    EXPECT_GT(entry["stages"].size(), 3u);
     EXPECT_EQ(entry["counts"]["samples"], 64 * 48);
 }
 
