@@ -6,7 +6,7 @@ set -euo pipefail
 
 packages=(
   cmake ninja-build g++ git pkg-config
-  libvulkan-dev vulkan-validationlayers mesa-vulkan-drivers glslang-tools spirv-headers
+  libvulkan-dev vulkan-validationlayers mesa-vulkan-drivers glslang-tools glslang-dev spirv-headers
   libglm-dev libtinygltf-dev libstb-dev nlohmann-json3-dev
   libopenexr-dev libpng-dev
   libspdlog-dev libcli11-dev

@@ -21,8 +21,7 @@ enum class ErrorKind : int {
 class Error : public std::runtime_error {
 public:
     Error(ErrorKind kind, const std::string& what, const std::string& where, const std::string& hint)
-        : std::runtime_error(what + (where.empty() ? "" : ", " + where) + (hint.empty() ? "" : "; " + hint)),
-          kind_(kind) {}
+        : std::runtime_error(what + (where.empty() ? "" : ", " + where) + (hint.empty() ? "" : "; " + hint)), kind_(kind) {}
 
     ErrorKind kind() const { return kind_; }
     int exit_code() const { return static_cast<int>(kind_); }

@@ -13,11 +13,11 @@
 namespace gnomon {
 
 struct RenderSettings {
-    uint32_t width = 1280;   ///< Pixels, 1 to 16384.
-    uint32_t height = 720;   ///< Pixels, 1 to 16384.
-    uint32_t spp = 16;       ///< Samples per pixel, 1 to 65536.
+    uint32_t width = 1280;  ///< Pixels, 1 to 16384.
+    uint32_t height = 720;  ///< Pixels, 1 to 16384.
+    uint32_t spp = 16;      ///< Samples per pixel, 1 to 65536.
     uint32_t seed = 0;
-    uint32_t camera = 0;     ///< Index into Scene::cameras.
+    uint32_t camera = 0;         ///< Index into Scene::cameras.
     uint32_t shadow_res = 1024;  ///< Texels along a light view's side, 1 to 16384.
     std::string method = "exact";
     std::string layout = "array";  ///< A registered layout, or a folder that holds one.
@@ -36,7 +36,7 @@ struct SampleRecord {
 };
 
 struct Channel {
-    std::string name;  ///< "R", "A", "visibility.0", ...
+    std::string name;           ///< "R", "A", "visibility.0", ...
     std::vector<float> values;  ///< width * height, rows from the top.
 };
 
@@ -71,11 +71,11 @@ using Progress = std::function<bool(double)>;
 struct DeviceDescription {
     uint32_t index = 0;
     std::string name;
-    std::string type;    ///< "discrete", "integrated", "virtual", "cpu", "other"
+    std::string type;  ///< "discrete", "integrated", "virtual", "cpu", "other"
     std::string driver;
     uint64_t heap_bytes = 0;
     std::vector<std::string> missing;  ///< Required features that it lacks; empty: usable.
-    bool chosen = false;  ///< What an empty choice would use.
+    bool chosen = false;               ///< What an empty choice would use.
 };
 
 /// All Vulkan devices of this machine. An empty list where there is no driver.

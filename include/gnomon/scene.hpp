@@ -47,7 +47,8 @@ struct Vertex {
     uint32_t influence_first = 0;
     uint32_t influence_count = 0;
     uint32_t morph = 0;  ///< Index into Scene::morphs. morphs[0] has no targets.
-    uint32_t morph_vertex = 0;  ///< This vertex's number within its morph: delta j is at delta_first + j * vertex_count + morph_vertex.
+    uint32_t morph_vertex =
+        0;  ///< This vertex's number within its morph: delta j is at delta_first + j * vertex_count + morph_vertex.
 };
 
 /// Displacements of one primitive instance by its morph targets.
@@ -70,11 +71,11 @@ struct Camera {
     std::string name;
     int32_t node = -1;
     CameraKind kind = CameraKind::perspective;
-    double yfov = 0.8;          ///< Radians, perspective.
-    double aspect = 0.0;        ///< Width over height, perspective; 0: the image's.
+    double yfov = 0.8;              ///< Radians, perspective.
+    double aspect = 0.0;            ///< Width over height, perspective; 0: the image's.
     double xmag = 1.0, ymag = 1.0;  ///< Half sizes in metres, orthographic.
-    double znear = 0.01;        ///< Metres along the view axis, > 0.
-    double zfar = 0.0;          ///< Metres; 0: infinite.
+    double znear = 0.01;            ///< Metres along the view axis, > 0.
+    double zfar = 0.0;              ///< Metres; 0: infinite.
 };
 
 enum class LightKind : uint32_t { directional = 0, spot = 1, point = 2 };
@@ -85,9 +86,9 @@ struct Light {
     int32_t node = -1;
     LightKind kind = LightKind::directional;
     glm::vec3 color{1.0f};
-    float intensity = 1.0f;     ///< Lux (directional) or candela (spot, point).
-    float range = 0.0f;         ///< Metres; 0: unlimited.
-    float inner_cone = 0.0f;    ///< Radians from the axis, spot.
+    float intensity = 1.0f;   ///< Lux (directional) or candela (spot, point).
+    float range = 0.0f;       ///< Metres; 0: unlimited.
+    float inner_cone = 0.0f;  ///< Radians from the axis, spot.
     float outer_cone = 0.785398163f;
 };
 
@@ -132,10 +133,10 @@ struct Rigid {
 /// The scene at one instant.
 struct Pose {
     double seconds = 0.0;
-    std::vector<glm::vec4> palette;      ///< Three rows (x, y, z) of each matrix.
+    std::vector<glm::vec4> palette;  ///< Three rows (x, y, z) of each matrix.
     std::vector<float> morph_weights;
-    std::vector<Rigid> cameras;          ///< As Scene::cameras.
-    std::vector<Rigid> lights;           ///< As Scene::lights.
+    std::vector<Rigid> cameras;  ///< As Scene::cameras.
+    std::vector<Rigid> lights;   ///< As Scene::lights.
 };
 
 /// Which animations drive the scene.

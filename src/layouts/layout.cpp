@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layouts/layout.hpp"
 
+#include <fstream>
 #include <gnomon/error.hpp>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -62,7 +64,38 @@ LayoutBuffer parse_buffer(const nlohmann::json& json, const std::string& where) 
     return buffer;
 }
 
+// Of a layout's folder.
+std::string read_part(const std::filesystem::path& path) {
+    if (std::optional<std::string> text = read_text(path)) return *text;
+    throw Error(ErrorKind::input, "a layout's file is missing or cannot be read", path.string(),
+                "name a folder with layout.glsl and layout.json");
+}
+
+Layout load_layout(const std::filesystem::path& given) {
+    std::error_code ignored;  // Of a path that cannot be made canonical no file can be read, which is said.
+    std::filesystem::path folder = std::filesystem::weakly_canonical(std::filesystem::absolute(given, ignored), ignored);
+    if (folder.empty()) folder = given;
+    const std::filesystem::path manifest = folder / "layout.json";
+    Layout layout = parse_layout(read_part(manifest), manifest.string());
+    read_part(folder / "layout.glsl");
+    layout.folder = folder;
+    return layout;
+}
+
 }  // namespace
+
+std::optional<std::string> read_text(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
+    std::ifstream file(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    if (!file) return std::nullopt;
+    return text;
+}
+
+std::string Layout::stage(const std::string& name_without) const {
+    return name_without + "@" + (folder.empty() ? name : folder.string());
+}
 
 Layout parse_layout(std::string_view text, const std::string& where) {
     try {
@@ -86,13 +119,17 @@ std::vector<std::string> layout_names() {
     return names;
 }
 
-Layout find_layout(const std::string& name) {
+Layout find_layout(const std::string& name_or_folder) {
     std::string known;
     for (const auto& entry : kLayoutTable) {
-        if (name == entry.name) return parse_layout(entry.manifest, name + "/layout.json");
+        if (name_or_folder == entry.name) return parse_layout(entry.manifest, name_or_folder + "/layout.json");
         known += (known.empty() ? "" : ", ") + std::string(entry.name);
     }
-    throw Error(ErrorKind::usage, "no S-buffer layout '" + name + "'", "--layout", "use one of " + known);
+    std::error_code ignored;
+    if (name_or_folder.find('/') != std::string::npos || std::filesystem::is_directory(name_or_folder, ignored))
+        return load_layout(name_or_folder);
+    throw Error(ErrorKind::usage, "no S-buffer layout '" + name_or_folder + "'", "--layout",
+                "use one of " + known + ", or a folder with layout.glsl and layout.json");
 }
 
 Layout with_ranges(Layout layout, bool exit_depth) {

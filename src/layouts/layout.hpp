@@ -3,6 +3,7 @@
 // layout.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -35,18 +36,26 @@ struct Layout {
     std::string source;  ///< Paper and section.
     bool lossless = true;
     std::vector<LayoutBuffer> buffers;
+    std::filesystem::path folder;  ///< Absolute; empty: built in.
+
+    /// The name among the programs of a stage compiled for this layout.
+    std::string stage(const std::string& name_without) const;
 };
 
 /// Names of the layouts that are built in.
 std::vector<std::string> layout_names();
 
-/// Errors: ErrorKind::usage, naming those that exist.
-Layout find_layout(const std::string& name);
+/// A built-in layout by its name, else the one in a folder: a path with a '/', or of a folder that exists.
+/// Errors: ErrorKind::usage, naming those that exist; input, for a folder without layout.glsl and a layout.json that parses.
+Layout find_layout(const std::string& name_or_folder);
 
 /// Without the buffers that only an exit depth needs, where there is none.
 Layout with_ranges(Layout layout, bool exit_depth);
 
 /// Parse a manifest. Errors: ErrorKind::input naming `where` and the member.
 Layout parse_layout(std::string_view json, const std::string& where);
+
+/// The content of a regular file; nothing where there is none that can be read.
+std::optional<std::string> read_text(const std::filesystem::path& path);
 
 }  // namespace gnomon

@@ -6,6 +6,7 @@
 #include <gnomon/error.hpp>
 #include <gnomon/render.hpp>
 
+#include "layouts/compile_layout.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "pipeline/view.hpp"
 #include "shared/film.h"
@@ -146,6 +147,10 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     const Method& method = find_method(settings.method);
     const std::string raster = choose_raster(method, settings.raster);
     const Layout layout = with_ranges(find_layout(settings.layout), method.exit_depth);
+    if (!layout.folder.empty()) {
+        for (const std::string& stage : {"raster/" + raster, method.shadow_stage})
+            programs.add(layout.stage(stage), compile_stage(stage, layout));
+    }
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;
     device.set_budget(budget);
@@ -189,8 +194,8 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     // The samples, a batch at a time. An S-buffer that fits is filled once, else in bands for every batch.
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget);
-    Sampler sampler(device, programs, geometry, view, bins, method.shadow_stage + "@" + layout.name, settings.spp,
-                    settings.seed, frame.light_count, most_slots, settings.keep_samples, settings.count_ranges);
+    Sampler sampler(device, programs, geometry, view, bins, layout.stage(method.shadow_stage), settings.spp, settings.seed,
+                    frame.light_count, most_slots, settings.keep_samples, settings.count_ranges);
     uint64_t left = budget - std::min(budget, device.live_bytes());
     for (LightSide& side : sides) {
         side.bands = side.s_buffer->bands(left / sides.size());

@@ -14,13 +14,22 @@ gpu::Shader find_shader(const std::string& name) {
     throw Error(ErrorKind::internal, "no such stage", name, "report this as a bug");
 }
 
+void Programs::add(const std::string& name, std::vector<uint32_t> spirv) {
+    std::vector<uint32_t>& known = added_[name];
+    if (known == spirv) return;
+    known = std::move(spirv);
+    std::erase_if(programs_, [&](const auto& program) { return program.first.first == name; });
+}
+
 const gpu::Program& Programs::get(const std::string& name, std::initializer_list<uint32_t> constants) {
     auto key = std::make_pair(name, std::vector<uint32_t>(constants));
     auto found = programs_.find(key);
     if (found == programs_.end()) {
         std::vector<gpu::Constant> values;
         for (uint32_t value : constants) values.push_back({static_cast<uint32_t>(values.size()), value});
-        found = programs_.emplace(key, device_.program(find_shader(name), values)).first;
+        auto added = added_.find(name);
+        gpu::Shader shader = added == added_.end() ? find_shader(name) : gpu::Shader{name, added->second};
+        found = programs_.emplace(key, device_.program(shader, values)).first;
     }
     return found->second;
 }

@@ -11,19 +11,24 @@
 
 namespace gnomon {
 
-/// SPIR-V embedded at build time under a stage's name: "sample/trace", or "sample/shadow@array" where the stage depends on the layout.
-/// Errors: ErrorKind::internal if there is none.
+/// SPIR-V embedded at build time under a stage's name: "sample/trace", or "sample/shadow@array" where the stage depends on the
+/// layout. Errors: ErrorKind::internal if there is none.
 gpu::Shader find_shader(const std::string& name);
 
 class Programs {
 public:
     explicit Programs(gpu::Device& device) : device_(device) {}
 
-    /// The stage specialised with constant_id 0, 1, ... = constants. Valid as long as this object.
+    /// A stage that is not embedded, or another version of one that was added before.
+    void add(const std::string& name, std::vector<uint32_t> spirv);
+
+    /// The stage specialised with constant_id 0, 1, ... = constants. Valid as long as this object, or until the stage is added
+    /// anew.
     const gpu::Program& get(const std::string& name, std::initializer_list<uint32_t> constants = {});
 
 private:
     gpu::Device& device_;
+    std::map<std::string, std::vector<uint32_t>> added_;
     std::map<std::pair<std::string, std::vector<uint32_t>>, gpu::Program> programs_;
 };
 

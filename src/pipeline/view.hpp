@@ -17,14 +17,14 @@ struct ViewKey {
 };
 
 struct View {
-    uint32_t width = 0;   ///< Texels.
+    uint32_t width = 0;  ///< Texels.
     uint32_t height = 0;
     bool orthographic = false;
     float depth_near = 0.0f;  ///< Surfaces are seen where depth_near < depth < depth_far.
     float depth_far = 0.0f;
-    float scale_x = 1.0f;     ///< Raster units per metre (orthographic) or per unit slope (perspective).
+    float scale_x = 1.0f;  ///< Raster units per metre (orthographic) or per unit slope (perspective).
     float scale_y = 1.0f;
-    float cone_tan2 = 0.0f;   ///< Spots: squared tangent of the outer half angle.
+    float cone_tan2 = 0.0f;  ///< Spots: squared tangent of the outer half angle.
     std::vector<ViewKey> keys;
 };
 
@@ -33,10 +33,11 @@ View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t 
 
 /// A directional light's view: its map holds `bounds` at every key. A spot's: its map holds the outer cone.
 /// Errors: ErrorKind::input for a cone that no plane holds (half angle of 89 degrees or more); point lights are not views.
-View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution);
+View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
+                uint32_t resolution);
 
-/// The least metres along a hit's normal within which nothing occludes it: 2^-23 of the scene's largest coordinate, the rounding of a
-/// light's space. At most hits 2^-20 of their own largest coordinate is more, and taken.
+/// The least metres along a hit's normal within which nothing occludes it: 2^-23 of the scene's largest coordinate, the
+/// rounding of a light's space. At most hits 2^-20 of their own largest coordinate is more, and taken.
 float least_tolerance(const Bounds& bounds);
 
 }  // namespace gnomon

@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// The prisms of one view. List of tile and cell: entries [offsets[i], offsets[i + 1]), i = tile * cell_count + cell. An entry is a triangle, with
-/// kReversed where its orientation is reversed.
+/// The prisms of one view. List of tile and cell: entries [offsets[i], offsets[i + 1]), i = tile * cell_count + cell. An entry
+/// is a triangle, with kReversed where its orientation is reversed.
 struct Bins {
     shared::ViewGrid grid;
     gpu::Buffer raster_vertices;  ///< vec4 per key and vertex, in the view's raster space.

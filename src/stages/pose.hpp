@@ -21,8 +21,8 @@ struct Geometry {
     gpu::Buffer attributes;  ///< 2 vec4 per vertex: texture coordinates, colour.
     gpu::Buffer materials;   ///< 2 uvec4 per material: base colour; first texel, width, height, wrap modes.
     gpu::Buffer texels;      ///< RGBA8 words of all images.
-    bool textured = false;  ///< A material has a texture.
-    bool smooth = false;    ///< A vertex has a normal.
+    bool textured = false;   ///< A material has a texture.
+    bool smooth = false;     ///< A vertex has a normal.
 };
 
 /// Upload the scene and run the pose stage at every key.

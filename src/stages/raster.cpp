@@ -33,7 +33,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, const Geometry& geomet
       geometry_(geometry),
       bins_(bins),
       layout_(layout),
-      raster_(raster + "@" + layout.name),
+      raster_(layout.stage(raster)),
       items_per_group_(items_per_group(raster)),
       orthographic_(orthographic) {
     item_count_ = bins.grid.tiles_x * bins.grid.tiles_y * bins.grid.cell_count;

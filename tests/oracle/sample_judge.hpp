@@ -43,8 +43,8 @@ public:
     Verdict primary(uint32_t triangle, const SamplePoint& sample) const;
 
     /// Does the light reach the sample's hit on `triangle`? An occluder nearer to the hit, along its normal, than 2^-20 of the
-    /// hit's largest coordinate does not count, one farther than that and than 2^-23 of the scene's does; in between the verdict is
-    /// `tolerance`.
+    /// hit's largest coordinate does not count, one farther than that and than 2^-23 of the scene's does; in between the
+    /// verdict is `tolerance`.
     Verdict shadow(uint32_t triangle, uint32_t light, bool lit, const SamplePoint& sample) const;
 
     /// Metres, of all poses.

@@ -59,7 +59,7 @@ std::vector<Cells> for_each_row(const std::vector<Row>& rows, MakeCells make) {
 std::string times_table(const std::vector<Row>& rows) {
     return table("Whole frames",
                  {"scene", "spp", "gnomon, s", "Embree, s", "segments", "Embree / gnomon", "gnomon, CPU s", "Embree, CPU s",
-                  "hits agree, %", "shadows agree, %"},
+                  "ratio of CPU s", "hits agree, %", "shadows agree, %"},
                  for_each_row(rows, [](const Row& row) -> Cells {
                      return {spread(row.gnomon.wall, 3),
                              spread(row.embree.wall, 3),
@@ -67,6 +67,7 @@ std::string times_table(const std::vector<Row>& rows) {
                              spread(row.ratio, 2),
                              fixed(row.gnomon.cpu.median, 3),
                              fixed(row.embree.cpu.median, 3),
+                             fixed(row.cpu_ratio.median, 2),
                              fixed(100.0 * row.agreement.hit_share(), 4),
                              fixed(100.0 * row.agreement.shadow_share(), 4)};
                  }));

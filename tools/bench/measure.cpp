@@ -38,6 +38,7 @@ public:
     }
 
     double last_wall() const { return wall_.back(); }
+    double last_cpu() const { return cpu_.back(); }
 
     Timing timing() const {
         Timing result{summarize(wall_), summarize(cpu_), stages_.front(), summarize(rest_)};
@@ -98,16 +99,18 @@ Row measure_row(Renderer& renderer, const std::string& name, const PosedScene& p
     reference.embree_segments = row.embree_segments;
 
     Timer gnomon, embree;
-    std::vector<double> ratios;
+    std::vector<double> ratios, cpu_ratios;
     for (uint32_t i = 0; i < settings.repeat; ++i) {
         notify("pair " + std::to_string(i + 1) + " of " + std::to_string(settings.repeat));
         row.gnomon_stats = gnomon.time(gnomon_frame).stats;
         row.embree_stats = embree.time(embree_frame).stats;
         ratios.push_back(embree.last_wall() / gnomon.last_wall());
+        cpu_ratios.push_back(embree.last_cpu() / gnomon.last_cpu());
     }
     row.gnomon = gnomon.timing();
     row.embree = embree.timing();
     row.ratio = summarize(ratios);
+    row.cpu_ratio = summarize(cpu_ratios);
 
     notify("counts and agreement");
     render.count_ranges = render.keep_samples = true;

@@ -42,7 +42,8 @@ struct Row {
     Settings settings;
     Timing gnomon;
     Timing embree;
-    Summary ratio;  ///< The reference's wall seconds over gnomon's, pair by pair.
+    Summary ratio;      ///< The reference's wall seconds over gnomon's, pair by pair.
+    Summary cpu_ratio;  ///< The same of CPU seconds.
     std::vector<Trial> trials;
     uint32_t embree_segments = 1;  ///< Those of the faster trial.
     FrameStats gnomon_stats;       ///< Bytes of a timed frame, counts of one that counts ranges.

@@ -118,6 +118,7 @@ Json gnomon_json(const Row& row) {
     entry["buffers"] = row.gnomon_stats.buffer_bytes;
     entry["peak_bytes"] = row.gnomon_stats.peak_bytes;
     entry["embree_over_gnomon"] = summary_json(row.ratio);
+    entry["embree_over_gnomon_cpu"] = summary_json(row.cpu_ratio);
     entry["work"] = work_json(row.work);
     entry["agreement"] = {{"samples", row.agreement.samples},
                           {"hits", row.agreement.hit_share()},

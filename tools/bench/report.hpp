@@ -31,7 +31,8 @@ struct Context {
 ///     stages                               [{name, seconds, dispatches}], medians
 ///     rest_seconds                         {median, min, max, runs}, wall seconds that lie in no stage
 ///     counts                               {name: number}
-///   of gnomon also effective {name: string}, buffers {name: bytes}, peak_bytes, embree_over_gnomon {median, min, max, runs},
+///   of gnomon also effective {name: string}, buffers {name: bytes}, peak_bytes, embree_over_gnomon {median, min, max, runs}
+///     of wall seconds, embree_over_gnomon_cpu of CPU seconds,
 ///     work (the members of bench::Work; null: not known), agreement {samples, hits, shadow_tests, shadows}, hits and shadows
 ///     being shares;
 ///   of the reference also segments and trials [{segments, wall_seconds}].

@@ -87,6 +87,8 @@ TEST_F(FrameBench, SmallestFrame) {
     EXPECT_EQ(gnomon["effective"]["method"], "exact");
     EXPECT_DOUBLE_EQ(gnomon["embree_over_gnomon"]["median"].get<double>(),
                      embree["real_time"].get<double>() / gnomon["real_time"].get<double>());
+    EXPECT_DOUBLE_EQ(gnomon["embree_over_gnomon_cpu"]["median"].get<double>(),
+                     embree["cpu_time"].get<double>() / gnomon["cpu_time"].get<double>());
     const json& work = gnomon["work"];
     for (const char* name : {"light_entries", "ranges", "tests_per_sample", "traced_tests", "ranges_per_second",
                              "visited_per_shadow_test", "tested_per_shadow_test"}) {
