@@ -73,7 +73,8 @@ private:
     std::deque<IncludeResult> results_;
 };
 
-// The first error of a glslang log: "ERROR: <file>:<line>: <message>".
+// The first error of a glslang log: "ERROR: <file>:<line>: <message>", or, of the linker, a message that may end in an indented
+// line.
 [[noreturn]] void fail(const std::string& log, const Layout& layout) {
     std::string where = (layout.folder / "layout.glsl").string();
     std::string what = log.substr(0, log.find('\n'));
@@ -82,7 +83,10 @@ private:
         if (!line.starts_with("ERROR: ")) continue;
         what = line.substr(7);
         std::smatch part;
-        if (!std::regex_match(what, part, std::regex("(.*?):(\\d+): (.*)"))) break;
+        if (!std::regex_match(what, part, std::regex("(.*?):(\\d+): (?:'' : +)?(.*)"))) {
+            if (std::getline(lines, line) && line.starts_with(' ')) what += line.substr(line.find_first_not_of(' '));
+            break;
+        }
         std::string file = part[1], place = file + ":" + std::string(part[2]), message = part[3];
         // Elsewhere than in the layout: a stage does not find there what it asks for.
         const bool in_layout = fs::path(file).is_absolute();

@@ -20,9 +20,8 @@ struct Context {
 };
 
 /// The layout of Google Benchmark's JSON, so that its tools can compare two files:
-///   context     date (UTC), num_cpus, cpu, load_avg, library_build_type, device, device_type, driver, versions {gnomon,
-///   embree,
-///               compiler}, width, height, shadow_res, threads, repetitions, scale
+///   context     date (UTC), num_cpus, cpu, load_avg, library_build_type, device, device_type, driver,
+///               versions {gnomon, embree, compiler}, width, height, shadow_res, threads, repetitions, scale
 ///   benchmarks  for each row one entry of gnomon and one of the reference:
 ///     name "frame/SCENE/spp:N/PROGRAM", scene, spp, program, threads, repetitions, iterations,
 ///     real_time, cpu_time, time_unit       medians of wall seconds and of the process's CPU seconds
@@ -38,7 +37,7 @@ struct Context {
 ///   of the reference also segments and trials [{segments, wall_seconds}].
 Json to_json(const Context& context, const std::vector<Row>& rows);
 
-/// Tables: times, work, stages of either program, largest buffers.
+/// Tables: times, work, stages of either program, yardsticks, largest buffers.
 std::string to_markdown(const Context& context, const std::vector<Row>& rows);
 
 }  // namespace gnomon::bench
