@@ -131,8 +131,11 @@ void build_lights(const Document& document, const std::vector<bool>& shown, Scen
         if (from.type == "spot") light.kind = LightKind::spot;
         if (from.type == "point") {
             light.kind = LightKind::point;
-            scene.warnings.push_back("the point light of " + node_label(model, n) +
-                                     " contributes nothing: point lights are not supported");
+            std::string warning = "the point light";
+            if (!light.name.empty()) warning.append(" '").append(light.name).append("'");
+            scene.warnings.push_back(warning.append(" of ")
+                                         .append(node_label(model, n))
+                                         .append(" contributes nothing: point lights are not supported"));
         }
         light.color = vector_of(from.color, glm::dvec3(1.0));
         light.intensity = static_cast<float>(from.intensity);
