@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Does a moving triangle cover a point of a view's image at a time, and how deep is it there?
-// Based on: Olano and Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates"; Akenine-Moller et al. 2007, "Stochastic
-// rasterization using time-continuous triangles".
+// Based on: Olano and Greer 1997, "Triangle scan conversion using 2D homogeneous coordinates"; Akenine-Moller et al. 2007,
+// "Stochastic rasterization using time-continuous triangles".
 //
-// A vertex in a view's raster space is homogeneous: (x, y, z, w). x / w and y / w are texels (pixels) from the image's centre, x to the right and y down; z / w is
-// the depth. Orthographic views: w = 1, z = metres along the view axis. Perspective views: w = metres along the view axis, z = -1, so that the
-// depth -1 / w grows with the distance and stays exact for vertices behind the eye.
+// A vertex in a view's raster space is homogeneous: (x, y, z, w). x / w and y / w are texels (pixels) from the image's centre,
+// x to the right and y down; z / w is the depth. Orthographic views: w = 1, z = metres along the view axis. Perspective views:
+// w = metres along the view axis, z = -1, so that the depth -1 / w grows with the distance and stays exact for vertices behind
+// the eye.
 #ifndef GNOMON_MATH_COVER_H
 #define GNOMON_MATH_COVER_H
 #include "../shared/lang.h"
@@ -29,15 +30,16 @@ GN_FN vec2 relative_to(vec4 p, float x, float y) {
     return r;
 }
 
-// Edge function of the edge p -> q at the origin. Swapping p and q negates the result exactly, so that two triangles which share an edge
-// leave no crack along it.
+// Edge function of the edge p -> q at the origin. Swapping p and q negates the result exactly, so that two triangles which
+// share an edge leave no crack along it.
 GN_FN float edge_at_origin(vec2 p, vec2 q) {
     GN_PRECISE float e = p.x * q.y - q.x * p.y;
     return e;
 }
 
-// The three edge functions of the triangle p0 p1 p2 at the image point (x, y); e.k belongs to the edge opposite vertex k. With the triangle's positive
-// orientation all three are >= 0 where it covers the point with w > 0. Barycentrics are e / (e.x + e.y + e.z).
+// The three edge functions of the triangle p0 p1 p2 at the image point (x, y); e.k belongs to the edge opposite vertex k. With
+// the triangle's positive orientation all three are >= 0 where it covers the point with w > 0. Barycentrics are e / (e.x + e.y
+// + e.z).
 GN_FN vec3 edges_at(vec4 p0, vec4 p1, vec4 p2, float x, float y) {
     vec2 r0 = relative_to(p0, x, y);
     vec2 r1 = relative_to(p1, x, y);

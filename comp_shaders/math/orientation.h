@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which way round a moving triangle is seen during a cell of time: the sign of its determinant, a cubic in time, bounded by its Bernstein coefficients.
+// Which way round a moving triangle is seen during a cell of time: the sign of its determinant, a cubic in time, bounded by its
+// Bernstein coefficients.
 #ifndef GNOMON_MATH_ORIENTATION_H
 #define GNOMON_MATH_ORIENTATION_H
 #include "range.h"

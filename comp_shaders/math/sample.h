@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where and when a pixel is sampled: a rotated Kronecker lattice in (x, y) over strata of time.
-// Based on: Roberts 2018, "The unreasonable effectiveness of quasirandom sequences" (the R2 constants); Jarzynski and Olano 2020, "Hash functions
-// for GPU rendering" (pcg).
+// Based on: Roberts 2018, "The unreasonable effectiveness of quasirandom sequences" (the R2 constants); Jarzynski and Olano
+// 2020, "Hash functions for GPU rendering" (pcg).
 #ifndef GNOMON_MATH_SAMPLE_H
 #define GNOMON_MATH_SAMPLE_H
 #include "../shared/lang.h"
@@ -19,8 +19,9 @@ GN_FN float unit_float(uint bits) { return float(bits >> 8u) * (1.0f / 16777216.
 // The start of a pixel's own lattice; every pixel and seed has another.
 GN_FN uint pixel_hash(uint x_px, uint y_px, uint seed) { return hash_pcg(x_px + hash_pcg(y_px + hash_pcg(seed))); }
 
-// Sample `s` of `spp` in pixel (x_px, y_px): (x, y) in pixels, t in the shutter. x_px <= x <= x_px + 1 (closed: float rounding), likewise y;
-// s / spp <= t < (s + 1) / spp. `pixel` is pixel_hash(x_px, y_px, seed). The sample depends on nothing else, so any split of the samples over runs gives the same ones.
+// Sample `s` of `spp` in pixel (x_px, y_px): (x, y) in pixels, t in the shutter. x_px <= x <= x_px + 1 (closed: float
+// rounding), likewise y; s / spp <= t < (s + 1) / spp. `pixel` is pixel_hash(x_px, y_px, seed). The sample depends on nothing
+// else, so any split of the samples over runs gives the same ones.
 GN_FN vec3 sample_point(uint pixel, uint x_px, uint y_px, uint s, uint spp) {
     uint hx = hash_pcg(pixel ^ 0x9e3779b9u);
     uint hy = hash_pcg(hx);

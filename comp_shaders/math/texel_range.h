@@ -32,16 +32,18 @@ GN_FN bool coincide(vec4 a, vec4 da, vec4 b, vec4 db) {
 }
 
 // Orthographic: all vertices keep to one column or one row of the image, seen edge-on throughout the segment.
-GN_FN bool edge_on(float a0, float a1, float a2, float d0, float d1, float d2) { return a0 == a1 && a1 == a2 && d0 == d1 && d1 == d2; }
+GN_FN bool edge_on(float a0, float a1, float a2, float d0, float d1, float d2) {
+    return a0 == a1 && a1 == a2 && d0 == d1 && d1 == d2;
+}
 
-// Orientations (math/orientation.h) in the cell; zero for a triangle that has no area during the whole segment. Small areas within a cell prove nothing: vertices
-// that coincide at both its ends may be an ulp apart in between.
+// Orientations (math/orientation.h) in the cell; zero for a triangle that has no area during the whole segment. Small areas
+// within a cell prove nothing: vertices that coincide at both its ends may be an ulp apart in between.
 GN_FN uint prism_orientations(vec4 a0, vec4 a1, vec4 a2, vec4 d0, vec4 d1, vec4 d2, CellTriangle c, float extent) {
     bool in_front = cell_in_front(c);
     float x = in_front ? c.a0.x / c.a0.w : 0.0f;
     float y = in_front ? c.a0.y / c.a0.w : 0.0f;
-    uint seen = orientations(tile_relative(c.a0, x, y), tile_relative(c.a1, x, y), tile_relative(c.a2, x, y), tile_relative(c.b0, x, y),
-                             tile_relative(c.b1, x, y), tile_relative(c.b2, x, y), extent);
+    uint seen = orientations(tile_relative(c.a0, x, y), tile_relative(c.a1, x, y), tile_relative(c.a2, x, y),
+                             tile_relative(c.b0, x, y), tile_relative(c.b1, x, y), tile_relative(c.b2, x, y), extent);
     bool flat_w = edge_on(a0.w, a1.w, a2.w, d0.w, d1.w, d2.w);
     bool no_area = coincide(a0, d0, a1, d1) || coincide(a1, d1, a2, d2) || coincide(a2, d2, a0, d0) ||
                    (flat_w && (edge_on(a0.x, a1.x, a2.x, d0.x, d1.x, d2.x) || edge_on(a0.y, a1.y, a2.y, d0.y, d1.y, d2.y)));
@@ -79,8 +81,8 @@ GN_FN ColumnBounds column_bounds(CellTriangle c, float cx, float cy, float x, fl
     return column;
 }
 
-// Times u within the cell, 0 to 1, from x to y, at which the prism may touch the texel at `row` (of its centre, tile-relative); z < 0 where it never does.
-// Both ends are still to be widened by time_slack.
+// Times u within the cell, 0 to 1, from x to y, at which the prism may touch the texel at `row` (of its centre, tile-relative);
+// z < 0 where it never does. Both ends are still to be widened by time_slack.
 GN_FN vec3 texel_times(ColumnBounds column, float row) {
     vec3 s = column.start_step * row + column.start;
     vec3 e = column.end_step * row + column.end;

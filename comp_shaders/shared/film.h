@@ -12,8 +12,8 @@ const uint kFilmHits = 3u;        // Samples that hit something.
 const uint kFilmDepth = 4u;       // Metres along the view axis, over the samples that hit.
 const uint kFilmVisibility = 5u;  // One plane per light, over the samples that hit.
 
-// Words of a light's record in the lights' buffer (vec4 each): colour times intensity and kind; cone scale, cone offset, range; then position and rotation
-// (quaternion x y z w) for each key.
+// Words of a light's record in the lights' buffer (vec4 each): colour times intensity and kind; cone scale, cone offset, range;
+// then position and rotation (quaternion x y z w) for each key.
 const uint kLightHead = 2u;
 const uint kLightPerKey = 2u;
 const uint kLightDirectional = 0u;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lets one header be C++ and GLSL. Headers that include this use only + - * / sqrt, comparisons and integer operations, so that the host
-// (built with -ffp-contract=off) and the device compute the same bits; `precise` forbids the device to contract.
+// What lets one header be C++ and GLSL. Headers that include this use only + - * / sqrt, comparisons and integer operations, so
+// that the host (built with -ffp-contract=off) and the device compute the same bits; `precise` forbids the device to contract.
 #ifndef GNOMON_SHARED_LANG_H
 #define GNOMON_SHARED_LANG_H
 
@@ -17,12 +17,12 @@
 #define GN_END }
 GN_BEGIN
 using uint = uint32_t;
-using glm::vec2;
-using glm::vec3;
-using glm::vec4;
 using glm::uvec2;
 using glm::uvec3;
 using glm::uvec4;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
 using std::sqrt;
 inline float abs(float a) { return std::fabs(a); }
 inline float floor(float a) { return std::floor(a); }

@@ -18,25 +18,27 @@ const uint kReversed = 0x80000000u;
 const uint kSmallTiles = 4u;
 // Tiles that one block of 8 invocations looks at when large prisms are binned.
 const uint kBlockTiles = 8u;
-// Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, all its loops together, without a word, and
-// raster/conservative goes round up to 10 times for an entry: for itself, for each of 8 rows, and to find that there are no more.
+// Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, all its loops
+// together, without a word, and raster/conservative goes round up to 10 times for an entry: for itself, for each of 8 rows, and
+// to find that there are no more.
 const uint kListChunk = 6144u;
 // Elements that one invocation scans.
 const uint kScanRun = 64u;
 
 // A view's image and how its prisms are listed.
 struct ViewGrid {
-    uint width;          // Texels.
+    uint width;  // Texels.
     uint height;
     uint tiles_x;
     uint tiles_y;
-    uint cell_count;     // Equal parts of the shutter; a multiple of segment_count.
+    uint cell_count;  // Equal parts of the shutter; a multiple of segment_count.
     uint segment_count;
     uint triangle_count;
     uint vertex_stride;  // Vertices from one key to the next.
 };
 
-// Entries of each list that one dispatch of sample/trace walks: a stratum may lie in several cells, each with a list of its own.
+// Entries of each list that one dispatch of sample/trace walks: a stratum may lie in several cells, each with a list of its
+// own.
 GN_FN uint trace_chunk(ViewGrid grid, uint spp) {
     return spp % grid.cell_count == 0u ? kListChunk : max(kListChunk / (grid.cell_count / spp + 2u), 1u);
 }
@@ -75,7 +77,7 @@ struct ScanParams {
 
 struct RasterParams {
     ViewGrid grid;
-    uint item_count;   // Items (a tile in a cell: tile * cell_count + cell) of this dispatch.
+    uint item_count;  // Items (a tile in a cell: tile * cell_count + cell) of this dispatch.
     uint item_first;
     uint list_first;   // Walk entries [list_first, list_first + kListChunk) of each list.
     uint range_first;  // The number of the first range in the bound memory.
@@ -83,7 +85,7 @@ struct RasterParams {
 
 struct TraceParams {
     ViewGrid grid;
-    uint tile_first;   // The batch: tiles [tile_first, tile_first + tile_count), strata [stratum_first, ...).
+    uint tile_first;  // The batch: tiles [tile_first, tile_first + tile_count), strata [stratum_first, ...).
     uint tile_count;
     uint stratum_first;
     uint stratum_count;
@@ -111,15 +113,15 @@ struct ShadowParams {
     uint light_height;
     uint light_tiles_x;
     uint light_cell_count;
-    float scale_x;    // Raster units per metre (orthographic), or per unit slope (perspective).
+    float scale_x;  // Raster units per metre (orthographic), or per unit slope (perspective).
     float scale_y;
-    float cone_tan2;  // Squared tangent of a spot's outer half angle.
-    float tolerance;  // The least metres along a hit's normal within which nothing occludes.
-    float depth_near; // Occluders are deeper than this.
-    uint item_first;  // Items of the light's view whose ranges are in memory.
+    float cone_tan2;   // Squared tangent of a spot's outer half angle.
+    float tolerance;   // The least metres along a hit's normal within which nothing occludes.
+    float depth_near;  // Occluders are deeper than this.
+    uint item_first;   // Items of the light's view whose ranges are in memory.
     uint item_count;
-    uint range_first; // The number of the first range in memory.
-    uint part;        // How many times kListChunk ranges of each list were walked before.
+    uint range_first;  // The number of the first range in memory.
+    uint part;         // How many times kListChunk ranges of each list were walked before.
 };
 
 struct ShadeParams {

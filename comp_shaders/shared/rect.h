@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tiles that a prism may touch in one cell of time, in two words: x: first x (12 bits), last x (12), orientations (2), in front of the eye (1); y: first y, last y.
+// The tiles that a prism may touch in one cell of time, in two words: x: first x (12 bits), last x (12), orientations (2), in
+// front of the eye (1); y: first y, last y.
 #ifndef GNOMON_SHARED_RECT_H
 #define GNOMON_SHARED_RECT_H
 #include "params.h"
