@@ -52,7 +52,7 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
     gpu::Recorder recorder(device);
-    recorder.fill("shade", film_, 0);
+    recorder.fill("sample/shade", film_, 0);
     recorder.submit();
 }
 
