@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the samples of a batch lie in memory: slot = ((tile * strata + stratum) * 8 + row) * 8 + column, tile and stratum counted from the batch's first.
+// How the samples of a batch lie in memory: slot = (tile * strata + stratum) * 64 + tile_slot(column, row), tile and stratum counted from the batch's first.
 #include "math/sample.h"
+#include "shared/slot.h"
 
 struct Slot {
     uint tile;     // From the batch's first.
@@ -11,8 +12,8 @@ struct Slot {
 
 Slot unpack_slot(uint slot, uint stratum_count) {
     Slot s;
-    s.column = slot & 7u;
-    s.row = (slot >> 3u) & 7u;
+    s.column = slot_column(slot);
+    s.row = slot_row(slot);
     uint item = slot >> 6u;
     s.tile = divide(item, stratum_count);
     s.stratum = item - s.tile * stratum_count;

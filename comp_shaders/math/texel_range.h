@@ -59,25 +59,69 @@ GN_FN float nearest_depth(CellTriangle c, bool orthographic) {
     return orthographic ? flat_depth : deep;
 }
 
+// A prism's bounds in the image, where it is in front of the eye: raster space, widened by what rounding may move its vertices
+// (math/range.h) and by the motion within time_slack. The bounds of a linear motion are those of its ends, since x / w is
+// monotone in time for w > 0.
+struct CellBox {
+    vec2 lower;
+    vec2 upper;
+};
+
+GN_FN CellBox cell_box(CellTriangle c, float extent, float slack) {
+    vec2 a0 = vec2(c.a0.x, c.a0.y) / c.a0.w, a1 = vec2(c.a1.x, c.a1.y) / c.a1.w, a2 = vec2(c.a2.x, c.a2.y) / c.a2.w;
+    vec2 b0 = vec2(c.b0.x, c.b0.y) / c.b0.w, b1 = vec2(c.b1.x, c.b1.y) / c.b1.w, b2 = vec2(c.b2.x, c.b2.y) / c.b2.w;
+    vec2 lower =
+        vec2(min(min_of(a0.x, a1.x, a2.x), min_of(b0.x, b1.x, b2.x)), min(min_of(a0.y, a1.y, a2.y), min_of(b0.y, b1.y, b2.y)));
+    vec2 upper =
+        vec2(max(max_of(a0.x, a1.x, a2.x), max_of(b0.x, b1.x, b2.x)), max(max_of(a0.y, a1.y, a2.y), max_of(b0.y, b1.y, b2.y)));
+    vec2 furthest = vec2(max(abs(lower.x), abs(upper.x)), max(abs(lower.y), abs(upper.y)));
+    vec2 widen = kShiftRounding * (vec2(extent, extent) + furthest) + slack * (upper - lower);
+    CellBox box;
+    box.lower = lower - widen;
+    box.upper = upper + widen;
+    return box;
+}
+
+// The rows of a tile that the prism may touch, first and last. cy: the tile's centre, reach: half its side, texels.
+GN_FN uvec2 tile_rows(CellTriangle c, float cy, float reach, float extent, float slack) {
+    CellBox box = cell_box(c, extent, slack);
+    float highest = 2.0f * reach - 1.0f;
+    float first = max(floor(box.lower.y - cy + reach), 0.0f);
+    float last = min(floor(box.upper.y - cy + reach), highest);
+    return cell_in_front(c) ? uvec2(uint(min(first, highest)), uint(max(last, 0.0f))) : uvec2(0u, uint(highest));
+}
+
+// The bounds of the three edges over a tile.
+struct TileBounds {
+    EdgeBound e0, e1, e2;
+};
+
+// (cx, cy): the tile's centre, reach: half its side, texels. For texels of side 1.
+GN_FN TileBounds tile_bounds(CellTriangle c, float cx, float cy, float reach, float extent) {
+    vec3 a0 = tile_relative(c.a0, cx, cy), a1 = tile_relative(c.a1, cx, cy), a2 = tile_relative(c.a2, cx, cy);
+    vec3 b0 = tile_relative(c.b0, cx, cy), b1 = tile_relative(c.b1, cx, cy), b2 = tile_relative(c.b2, cx, cy);
+    BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, reach, 0.5f, extent);
+    TileBounds bounds;
+    bounds.e0 = edge_bound(a1, a2, b1, b2, scale, reach);
+    bounds.e1 = edge_bound(a2, a0, b2, b0, scale, reach);
+    bounds.e2 = edge_bound(a0, a1, b0, b1, scale, reach);
+    return bounds;
+}
+
 // The bounds of the three edges along a column of texels: linear in the row, at the cell's start and at its end.
 struct ColumnBounds {
     vec3 start, start_step;
     vec3 end, end_step;
 };
 
-// x: of the column's centre; (cx, cy): the tile's centre, reach: half its side, texels. For texels of side 1.
-GN_FN ColumnBounds column_bounds(CellTriangle c, float cx, float cy, float x, float reach, float extent) {
-    vec3 a0 = tile_relative(c.a0, cx, cy), a1 = tile_relative(c.a1, cx, cy), a2 = tile_relative(c.a2, cx, cy);
-    vec3 b0 = tile_relative(c.b0, cx, cy), b1 = tile_relative(c.b1, cx, cy), b2 = tile_relative(c.b2, cx, cy);
-    BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, reach, 0.5f, extent);
-    EdgeBound e0 = edge_bound(a1, a2, b1, b2, scale, reach);
-    EdgeBound e1 = edge_bound(a2, a0, b2, b0, scale, reach);
-    EdgeBound e2 = edge_bound(a0, a1, b0, b1, scale, reach);
+// x: of the column's centre, tile-relative.
+GN_FN ColumnBounds column_bounds(TileBounds tile, float x) {
     ColumnBounds column;
-    column.start = vec3(e0.start.x, e1.start.x, e2.start.x) * x + vec3(e0.start.z, e1.start.z, e2.start.z);
-    column.start_step = vec3(e0.start.y, e1.start.y, e2.start.y);
-    column.end = vec3(e0.end.x, e1.end.x, e2.end.x) * x + vec3(e0.end.z, e1.end.z, e2.end.z);
-    column.end_step = vec3(e0.end.y, e1.end.y, e2.end.y);
+    column.start =
+        vec3(tile.e0.start.x, tile.e1.start.x, tile.e2.start.x) * x + vec3(tile.e0.start.z, tile.e1.start.z, tile.e2.start.z);
+    column.start_step = vec3(tile.e0.start.y, tile.e1.start.y, tile.e2.start.y);
+    column.end = vec3(tile.e0.end.x, tile.e1.end.x, tile.e2.end.x) * x + vec3(tile.e0.end.z, tile.e1.end.z, tile.e2.end.z);
+    column.end_step = vec3(tile.e0.end.y, tile.e1.end.y, tile.e2.end.y);
     return column;
 }
 

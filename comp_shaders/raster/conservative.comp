@@ -4,7 +4,7 @@
 //          behind the triangle anywhere. Count, or fill after the layout's own preparation.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
 // Writes:  RangeCounts (64 bits per kCountBlock items), and what the layout says
-// Grid:    8 invocations per tile and cell: one per column of texels, its 8 rows in registers
+// Grid:    8 invocations per tile and cell: one per column of texels, the counts of its 8 rows in registers; they prepare the list's prisms for each other
 // Source:  math/texel_range.h
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
@@ -24,15 +24,21 @@ layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/cell.glsl"
 #include "common/ticket.glsl"
 #include "common/range_count.glsl"
+#include "common/crew.glsl"
 uint range_base() { return params.range_first; }
 #define LAYOUT_WRITE
 #include "layout.glsl"
 
+EdgeBound shown(EdgeBound e, uint from) { return EdgeBound(subgroupShuffle(e.start, from), subgroupShuffle(e.end, from)); }
+
+TileBounds shown(TileBounds t, uint from) { return TileBounds(shown(t.e0, from), shown(t.e1, from), shown(t.e2, from)); }
+
 const float kReach = 0.5 * float(kTileSize);
 
 void main() {
-    uint item = params.item_first + take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u);
-    uint lane = gl_LocalInvocationID.x & 7u;
+    Crew crew = join_crew();
+    uint item = params.item_first + take_ticket() * 8u + (crewed_invocation() >> 3u);
+    uint lane = crewed_invocation() & 7u;
     ViewGrid grid = params.grid;
     bool inside = item < params.item_first + params.item_count;
     item = min(item, params.item_first + params.item_count - 1u);
@@ -58,7 +64,6 @@ void main() {
     uint list_first = (item - params.item_first) * kTileTexels + lane;
     const uint list_step = kTileSize;
     uint rows = inside && tile_x * kTileSize + lane < grid.width ? min(grid.height - tile_y * kTileSize, kTileSize) : 0u;
-    uint row_mask = (1u << rows) - 1u;
 
     uint count[8];
     [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] = 0u;
@@ -69,37 +74,40 @@ void main() {
 #endif
 
     while (k < end) {
-        uint entry = texelFetch(bin_entries, int(k)).x;
-        CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
-        ColumnBounds column = column_bounds(c, centre.x, centre.y, x, kReach, extent);
-        uint hits = 0u;
-        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-            bool hit = touches_texel(texel_times(column, float(r) - 3.5), slack);
-            hits |= hit ? 1u << r : 0u;
-        }
-        hits &= row_mask;
-        if (!kFill) {
-            [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] += (hits >> r) & 1u;
-        } else {
-            float nearest = nearest_depth(c, kOrthographic);
-            while (hits != 0u) {
-                uint r = uint(findLSB(hits));
-                hits &= hits - 1u;
-                vec2 times = range_times(texel_times(column, float(r) - 3.5), cell_start, per_cell, slack);
-                vec4 range = vec4(times, nearest, uintBitsToFloat(entry));
-#ifdef LAYOUT_CURSOR
+        uint own_entry = texelFetch(bin_entries, int(min(k + crew.place, end - 1u))).x;
+        CellTriangle c = fetch_cell_triangle(grid, own_entry, key_first, span);
+        TileBounds own_bounds = tile_bounds(c, centre.x, centre.y, kReach, extent);
+        uvec2 own_rows = tile_rows(c, centre.y, kReach, extent, slack);
+        float own_nearest = nearest_depth(c, kOrthographic);
+        uint from = crew.first;
+        uint last = crew.first + min(crew.size, end - k);
+        do {
+            uint entry = subgroupShuffle(own_entry, from);
+            float nearest = subgroupShuffle(own_nearest, from);
+            ColumnBounds column = column_bounds(shown(own_bounds, from), x);
+            uint row = subgroupShuffle(own_rows.x, from);
+            uint last_row = subgroupShuffle(own_rows.y, from);
+            while (row <= last_row) {
+                vec3 times = texel_times(column, float(row) - 3.5);
+                bool hit = touches_texel(times, slack) && row < rows;
                 uint cursor = 0u;
-                [[unroll]] for (uint q = 0u; q < 8u; ++q) {
-                    cursor = q == r ? count[q] : cursor;
-                    count[q] += q == r ? 1u : 0u;
+                [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+                    cursor = r == row ? count[r] : cursor;
+                    count[r] += r == row && hit ? 1u : 0u;
                 }
-                layout_emit(cursor, range);
+                if (kFill && hit) {
+                    vec4 range = vec4(range_times(times, cell_start, per_cell, slack), nearest, uintBitsToFloat(entry));
+#ifdef LAYOUT_CURSOR
+                    layout_emit(cursor, range);
 #else
-                layout_emit(list_first + r * list_step, range);
+                    layout_emit(list_first + row * list_step, range);
 #endif
+                }
+                ++row;
             }
-        }
-        ++k;
+            ++from;
+        } while (from < last);
+        k += crew.size;
     }
     if (!kFill) {
         uint sum = 0u;

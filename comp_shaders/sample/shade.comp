@@ -89,7 +89,7 @@ void main() {
     bool inside = i < params.tile_count * kTileTexels;
     uint tile_in_batch = min(i / kTileTexels, params.tile_count - 1u);
     uint texel = i & (kTileTexels - 1u);
-    Slot slot = Slot(tile_in_batch, 0u, texel >> 3u, texel & 7u);
+    Slot slot = Slot(tile_in_batch, 0u, slot_row(texel), slot_column(texel));
     uvec2 pixel = slot_pixel(slot, params.tile_first, grid.tiles_x);
     inside = inside && pixel.x < grid.width && pixel.y < grid.height;
 

@@ -3,7 +3,7 @@
 // Purpose: the nearest triangle at each camera sample.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
 // Writes:  Hits (per slot of the batch: the list entry, a triangle and its orientation, or kNone)
-// Grid:    8 invocations per tile and stratum of time: one per column of pixels, its 8 rows in registers
+// Grid:    8 invocations per tile and stratum of time: one per column of pixels, its 8 rows in registers; they fetch the list's triangles for each other
 // Source:  math/cover.h
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
@@ -22,6 +22,12 @@ layout(push_constant, scalar) uniform Push { TraceParams params; };
 #include "common/triangle.glsl"
 #include "common/ticket.glsl"
 #include "common/batch.glsl"
+#include "common/crew.glsl"
+
+MovingTriangle shown(MovingTriangle m, uint from) {
+    return MovingTriangle(subgroupShuffle(m.a0, from), subgroupShuffle(m.a1, from), subgroupShuffle(m.a2, from), subgroupShuffle(m.d0, from),
+                          subgroupShuffle(m.d1, from), subgroupShuffle(m.d2, from));
+}
 
 struct Best {
     float depth;
@@ -44,8 +50,9 @@ void test(MovingTriangle m, uint entry, vec3 xys, inout Best best) {
 void main() {
     ViewGrid grid = params.grid;
     uint item_count = params.tile_count * params.stratum_count;
-    uint item = take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u);
-    uint lane = gl_LocalInvocationID.x & 7u;
+    Crew crew = join_crew();
+    uint item = take_ticket() * 8u + (crewed_invocation() >> 3u);
+    uint lane = crewed_invocation() & 7u;
     bool inside = item < item_count;
     item = min(item, item_count - 1u);
     uint tile_in_batch = item / params.stratum_count;
@@ -53,7 +60,7 @@ void main() {
     uint tile = params.tile_first + tile_in_batch;
     uint tile_y = tile / grid.tiles_x;
     uint tile_x = tile - tile_y * grid.tiles_x;
-    uint slot = item * kTileTexels + lane;
+    uint slot = item * kTileTexels;
 
     // x and y in raster space, t in the shutter.
     vec3 point[8];
@@ -80,7 +87,7 @@ void main() {
             current[r] = here ? best[r] : Best(-3.4e38, 0u);
             at[r] = vec3(point[r].xy, point[r].z * float(grid.segment_count) - float(segment));
             if (kContinue) {
-                uint entry = hits[slot + r * 8u];
+                uint entry = hits[slot + tile_slot(lane, r)];
                 bool again = here && inside && entry != kNone;
                 MovingTriangle m = fetch_moving_triangle(again ? entry : grid.triangle_count, key_first, grid.vertex_stride);
                 test(m, entry, at[r], current[r]);
@@ -93,10 +100,18 @@ void main() {
         end = min(end, k + trace_chunk(grid, params.spp));
         do {
             // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
-            uint entry = k < end ? texelFetch(bin_entries, int(k)).x : grid.triangle_count;
-            MovingTriangle m = fetch_moving_triangle(entry, key_first, grid.vertex_stride);
-            [[unroll]] for (uint r = 0u; r < 8u; ++r) test(m, entry, at[r], current[r]);
-            ++k;
+            uint own = k + crew.place;
+            uint own_entry = own < end ? texelFetch(bin_entries, int(own)).x : grid.triangle_count;
+            MovingTriangle own_triangle = fetch_moving_triangle(own_entry, key_first, grid.vertex_stride);
+            uint from = crew.first;
+            uint last = crew.first + min(crew.size, end - min(k, end));
+            do {
+                uint entry = subgroupShuffle(own_entry, from);
+                MovingTriangle m = shown(own_triangle, from);
+                [[unroll]] for (uint r = 0u; r < 8u; ++r) test(m, entry, at[r], current[r]);
+                ++from;
+            } while (from < last);
+            k += crew.size;
         } while (k < end);
         [[unroll]] for (uint r = 0u; r < 8u; ++r) {
             bool here = !kStraddle || cell_of(point[r].z, grid.cell_count) == cell;
@@ -106,6 +121,6 @@ void main() {
     } while (cell <= last_cell);
 
     if (inside) {
-        [[unroll]] for (uint r = 0u; r < 8u; ++r) hits[slot + r * 8u] = best[r].entry;
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) hits[slot + tile_slot(lane, r)] = best[r].entry;
     }
 }

@@ -30,20 +30,14 @@ void main() {
 
     float highest_w = max(max_of(c.a0.w, c.a1.w, c.a2.w), max_of(c.b0.w, c.b1.w, c.b2.w));
     bool in_front = cell_in_front(c);
-    vec2 pa0 = c.a0.xy / c.a0.w, pa1 = c.a1.xy / c.a1.w, pa2 = c.a2.xy / c.a2.w;
-    vec2 pb0 = c.b0.xy / c.b0.w, pb1 = c.b1.xy / c.b1.w, pb2 = c.b2.xy / c.b2.w;
-    vec2 lower = min(min(min(pa0, pa1), pa2), min(min(pb0, pb1), pb2));
-    vec2 upper = max(max(max(pa0, pa1), pa2), max(max(pb0, pb1), pb2));
-
     float extent = grid_extent(grid);
     uint seen = prism_orientations(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, c, extent);
 
-    // Rounding of the vertices and of the samples, as in math/range.h; time is widened where ranges are compared, here it moves the bounds.
-    vec2 slack = kShiftRounding * (extent + max(abs(lower), abs(upper))) + time_slack(grid.cell_count) * (upper - lower);
+    CellBox box = cell_box(c, extent, time_slack(grid.cell_count));
     vec2 half_size = 0.5 * vec2(float(grid.width), float(grid.height));
     vec2 tiles = vec2(float(grid.tiles_x), float(grid.tiles_y));
-    vec2 first = in_front ? floor((lower - slack + half_size) * (1.0 / float(kTileSize))) : vec2(0.0);
-    vec2 last = in_front ? floor((upper + slack + half_size) * (1.0 / float(kTileSize))) : tiles;
+    vec2 first = in_front ? floor((box.lower + half_size) * (1.0 / float(kTileSize))) : vec2(0.0);
+    vec2 last = in_front ? floor((box.upper + half_size) * (1.0 / float(kTileSize))) : tiles;
     bool visible = seen != 0u && highest_w > 0.0 && first.x < tiles.x && first.y < tiles.y && last.x >= 0.0 && last.y >= 0.0;
     uvec2 f = uvec2(clamp(first, vec2(0.0), tiles - 1.0));
     uvec2 l = uvec2(clamp(last, vec2(0.0), tiles - 1.0));

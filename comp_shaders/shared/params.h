@@ -19,8 +19,8 @@ const uint kSmallTiles = 4u;
 // Tiles that one block of 8 invocations looks at when large prisms are binned.
 const uint kBlockTiles = 8u;
 // Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, all its loops
-// together, without a word, and raster/conservative goes round up to 10 times for an entry: for itself, for each of 8 rows, and
-// to find that there are no more.
+// together, without a word, and raster/conservative goes round up to 10 times for an entry: for itself, and for each of up to 8
+// rows; and once more for each crew of entries (common/crew.glsl).
 const uint kListChunk = 6144u;
 // Elements that one invocation scans.
 const uint kScanRun = 64u;

@@ -9,8 +9,10 @@ namespace gnomon::gpu {
 namespace {
 
 VkDevice create_device(const Candidate& candidate) {
-    VkPhysicalDeviceVulkan13Features features13{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES, .synchronization2 = VK_TRUE, .maintenance4 = VK_TRUE};
+    VkPhysicalDeviceVulkan13Features features13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                                                .computeFullSubgroups = VK_TRUE,
+                                                .synchronization2 = VK_TRUE,
+                                                .maintenance4 = VK_TRUE};
     const VkPhysicalDeviceVulkan12Features features12{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &features13, .scalarBlockLayout = VK_TRUE};
     const float priority = 1.0f;

@@ -95,6 +95,7 @@ void find_missing_features(Candidate& candidate) {
     vkGetPhysicalDeviceFeatures2(candidate.physical, &features);
     std::vector<std::string>& missing = candidate.description.missing;
     if (!features12.scalarBlockLayout) missing.emplace_back("scalarBlockLayout");
+    if (!features13.computeFullSubgroups) missing.emplace_back("computeFullSubgroups");
     if (!features13.maintenance4) missing.emplace_back("maintenance4");
     if (!features13.synchronization2) missing.emplace_back("synchronization2");
 }

@@ -55,8 +55,9 @@ OwnedPipelineLayout create_layout(VkDevice device, VkDescriptorSetLayout set_lay
     return create<OwnedPipelineLayout>(device, vkCreatePipelineLayout, info, "a pipeline layout", where);
 }
 
+// full_subgroups: the workgroup's row is whole subgroups, and the device is to make it so.
 OwnedPipeline create_pipeline(VkDevice device, VkPipelineLayout layout, const Shader& shader,
-                              std::span<const Constant> constants, const std::string& where) {
+                              std::span<const Constant> constants, bool full_subgroups, const std::string& where) {
     const VkShaderModuleCreateInfo module_info{.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                                .codeSize = shader.spirv.size_bytes(),
                                                .pCode = shader.spirv.data()};
@@ -71,13 +72,17 @@ OwnedPipeline create_pipeline(VkDevice device, VkPipelineLayout layout, const Sh
                                               .pMapEntries = entries.data(),
                                               .dataSize = constants.size_bytes(),
                                               .pData = constants.data()};
-    const VkComputePipelineCreateInfo info{.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
-                                           .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
-                                                     .stage = VK_SHADER_STAGE_COMPUTE_BIT,
-                                                     .module = module.get(),
-                                                     .pName = "main",
-                                                     .pSpecializationInfo = &specialization},
-                                           .layout = layout};
+    const VkComputePipelineCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                  .flags = full_subgroups
+                               ? VkPipelineShaderStageCreateFlags{VK_PIPELINE_SHADER_STAGE_CREATE_REQUIRE_FULL_SUBGROUPS_BIT}
+                               : 0,
+                  .stage = VK_SHADER_STAGE_COMPUTE_BIT,
+                  .module = module.get(),
+                  .pName = "main",
+                  .pSpecializationInfo = &specialization},
+        .layout = layout};
     VkPipeline pipeline = VK_NULL_HANDLE;
     check(vkCreateComputePipelines(device, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline), "create a pipeline", where);
     return OwnedPipeline(device, pipeline);
@@ -102,7 +107,8 @@ Program Device::program(const Shader& shader, std::span<const Constant> constant
     const VkDevice device = impl_->device.get();
     made.set_layout = create_set_layout(device, made.reflection, where);
     made.layout = create_layout(device, made.set_layout.get(), made.reflection.push_constant_bytes, where);
-    made.pipeline = create_pipeline(device, made.layout.get(), shader, constants, where);
+    const bool full_subgroups = made.reflection.local_size[0] % impl_->limits.subgroup_size == 0;
+    made.pipeline = create_pipeline(device, made.layout.get(), shader, constants, full_subgroups, where);
     impl_->set_object_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(made.pipeline.get()), shader.name);
     return program;
 }

@@ -108,11 +108,7 @@ void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, cons
     std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit();
     std::vector<float> depths = sampler.batch_depths();
     for (size_t slot = 0; slot < hits.size(); ++slot) {
-        uint32_t item = static_cast<uint32_t>(slot / shared::kTileTexels);
-        uint32_t tile = batch.tile_first + item / batch.stratum_count;
-        uint32_t s = batch.stratum_first + item % batch.stratum_count;
-        uint32_t x = tile % grid.tiles_x * shared::kTileSize + slot % 8,
-                 y = tile / grid.tiles_x * shared::kTileSize + slot / 8 % 8;
+        const auto [x, y, s] = slot_sample(batch, grid, slot);
         if (x >= frame.width || y >= frame.height || hits[slot] == shared::kNone) continue;
         uint32_t lights = frame.light_count == 32 ? ~0u : (1u << frame.light_count) - 1u;
         frame.samples[(size_t(y) * frame.width + x) * spp + s] = {hits[slot] & ~shared::kReversed, depths[slot],
@@ -194,8 +190,14 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     // The samples, a batch at a time. An S-buffer that fits is filled once, else in bands for every batch.
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget);
-    Sampler sampler(device, programs, geometry, view, bins, layout.stage(method.shadow_stage), settings.spp, settings.seed,
-                    frame.light_count, most_slots, settings.keep_samples, settings.count_ranges);
+    Sampler sampler(device, programs, geometry, view, bins,
+                    {.shadow_stage = layout.stage(method.shadow_stage),
+                     .spp = settings.spp,
+                     .seed = settings.seed,
+                     .light_count = frame.light_count,
+                     .most_slots = most_slots,
+                     .keep_depths = settings.keep_samples,
+                     .count_ranges = settings.count_ranges});
     uint64_t left = budget - std::min(budget, device.live_bytes());
     for (LightSide& side : sides) {
         side.bands = side.s_buffer->bands(left / sides.size());

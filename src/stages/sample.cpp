@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shared/film.h"
+#include "shared/slot.h"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
 
@@ -26,29 +27,33 @@ std::vector<float> srgb_table() {
 
 }  // namespace
 
+SlotSample slot_sample(const Batch& batch, const shared::ViewGrid& grid, uint64_t slot) {
+    const auto item = static_cast<uint32_t>(slot / shared::kTileTexels),
+               place = static_cast<uint32_t>(slot % shared::kTileTexels);
+    const uint32_t tile = batch.tile_first + item / batch.stratum_count;
+    return {tile % grid.tiles_x * shared::kTileSize + shared::slot_column(place),
+            tile / grid.tiles_x * shared::kTileSize + shared::slot_row(place),
+            batch.stratum_first + item % batch.stratum_count};
+}
+
 Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
-                 const std::string& shadow_stage, uint32_t spp, uint32_t seed, uint32_t light_count, uint64_t most_slots,
-                 bool depths, bool counting)
+                 const SamplerSettings& settings)
     : device_(device),
       programs_(programs),
       geometry_(geometry),
       view_(view),
       bins_(bins),
-      shadow_stage_(shadow_stage),
-      spp_(spp),
-      seed_(seed),
-      light_count_(light_count),
-      straddle_(spp % bins.grid.cell_count != 0),
-      depths_(depths),
-      counting_(counting) {
+      settings_(settings),
+      straddle_(settings.spp % bins.grid.cell_count != 0) {
+    const uint64_t most_slots = settings.most_slots;
     uint64_t pixels = uint64_t(bins.grid.width) * bins.grid.height;
     hits_ = device.allocate("hits", most_slots * 4);
     lit_ = device.allocate("lit", most_slots * 4);
     queue_ = device.allocate("queue", most_slots * 4);
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
     ticket_ = device.allocate("ticket", 4);
-    film_ = device.allocate("film", pixels * (shared::kFilmVisibility + light_count) * 4);
-    depth_values_ = device.allocate("depths", depths ? most_slots * 4 : 4);
+    film_ = device.allocate("film", pixels * (shared::kFilmVisibility + settings.light_count) * 4);
+    depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
     gpu::Recorder recorder(device);
@@ -60,19 +65,20 @@ void Sampler::trace(const Batch& batch) {
     batch_ = batch;
     uint32_t run_count = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
     gpu::Recorder recorder(device_);
-    uint32_t chunk = shared::trace_chunk(bins_.grid, spp_);
+    uint32_t chunk = shared::trace_chunk(bins_.grid, settings_.spp);
     for (uint32_t first = 0; first == 0 || first < bins_.longest; first += chunk) {
         recorder.fill("sample/trace", ticket_, 0);
-        recorder.dispatch("sample/trace", programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0}),
-                          bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
-                                    {"bin_entries", &bins_.entries, Texel::r32_uint},
-                                    {"triangles", &geometry_.triangles, Texel::rgba32_uint},
-                                    {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                    {"Hits", &hits_},
-                                    {"Ticket", &ticket_}}),
-                          shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first,
-                                              batch.stratum_count, spp_, seed_, first, view_.depth_near, view_.depth_far},
-                          groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
+        recorder.dispatch(
+            "sample/trace", programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0}),
+            bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
+                      {"bin_entries", &bins_.entries, Texel::r32_uint},
+                      {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                      {"Hits", &hits_},
+                      {"Ticket", &ticket_}}),
+            shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
+                                settings_.spp, settings_.seed, first, view_.depth_near, view_.depth_far},
+            groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
     }
     lit_written_ = false;
     recorder.fill("sample/compact", runs_, 0);
@@ -117,8 +123,8 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     batch_.tile_first,
                                     batch_.stratum_first,
                                     batch_.stratum_count,
-                                    spp_,
-                                    seed_,
+                                    settings_.spp,
+                                    settings_.seed,
                                     light.light_ix,
                                     light.view.width,
                                     light.view.height,
@@ -133,13 +139,13 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     band.item_count,
                                     light.s_buffer->range_base(),
                                     part};
-        recorder.dispatch(
-            "sample/shadow",
-            programs_.get(shadow_stage_, {light.view.orthographic, view_.orthographic, straddle_, counting_, parts > 1, first}),
-            all, params, groups_of(queue_count_, 64));
+        recorder.dispatch("sample/shadow",
+                          programs_.get(settings_.shadow_stage, {light.view.orthographic, view_.orthographic, straddle_,
+                                                                 settings_.count_ranges, parts > 1, first}),
+                          all, params, groups_of(queue_count_, 64));
     }
     recorder.submit();
-    if (!counting_) {
+    if (!settings_.count_ranges) {
         counts_.cast += band.item_first == 0 ? queue_count_ : 0;
         return;
     }
@@ -157,8 +163,8 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
     if (!lit_written_) recorder.fill("sample/shade", lit_, 0xffffffffu);
     recorder.dispatch(
         "sample/shade",
-        programs_.get("sample/shade",
-                      {view_.orthographic, straddle_, depths_, geometry_.textured, geometry_.smooth, lights_move}),
+        programs_.get("sample/shade", {view_.orthographic, straddle_, settings_.keep_depths, geometry_.textured,
+                                       geometry_.smooth, lights_move}),
         bindings({{"hits", &hits_, Texel::r32_uint},
                   {"lit", &lit_, Texel::r32_uint},
                   {"triangles", &geometry_.triangles, Texel::rgba32_uint},
@@ -172,15 +178,15 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
                   {"lights", &lights, Texel::rgba32_float},
                   {"Film", &film_},
                   {"Depths", &depth_values_}}),
-        shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count, spp_,
-                            seed_, light_count_, static_cast<uint32_t>(view_.keys.size())},
+        shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count,
+                            settings_.spp, settings_.seed, settings_.light_count, static_cast<uint32_t>(view_.keys.size())},
         batch_.tile_count);
     recorder.submit();
 }
 
 std::vector<float> Sampler::film() const {
     uint64_t pixels = uint64_t(bins_.grid.width) * bins_.grid.height;
-    return gpu::download_vector<float>(device_, film_, pixels * (shared::kFilmVisibility + light_count_));
+    return gpu::download_vector<float>(device_, film_, pixels * (shared::kFilmVisibility + settings_.light_count));
 }
 
 std::vector<uint32_t> Sampler::batch_hits() const {

@@ -16,6 +16,14 @@ struct Batch {
     uint64_t slot_count() const { return uint64_t(tile_count) * stratum_count * shared::kTileTexels; }
 };
 
+/// Which sample lies at a slot of a batch.
+struct SlotSample {
+    uint32_t x = 0;  ///< Pixel; may lie beyond the image's edge, in the tile.
+    uint32_t y = 0;
+    uint32_t stratum = 0;
+};
+SlotSample slot_sample(const Batch& batch, const shared::ViewGrid& grid, uint64_t slot);
+
 /// A light's side of the shadow test.
 struct LightSide {
     uint32_t light_ix = 0;
@@ -32,12 +40,20 @@ struct ShadowCounts {
     uint64_t cast = 0;     ///< Shadow tests: hits, over the lights that could reach them.
 };
 
+struct SamplerSettings {
+    std::string shadow_stage;  ///< The method's test, compiled for the layout.
+    uint32_t spp = 1;
+    uint32_t seed = 0;
+    uint32_t light_count = 0;
+    uint64_t most_slots = 0;    ///< Of a batch.
+    bool keep_depths = false;   ///< Each sample's depth, for batch_depths().
+    bool count_ranges = false;  ///< Fill shadow_counts().
+};
+
 class Sampler {
 public:
-    /// shadow_stage: the method's test, compiled for the layout. depths: keep each sample's depth.
     Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
-            const std::string& shadow_stage, uint32_t spp, uint32_t seed, uint32_t light_count, uint64_t most_slots,
-            bool depths, bool counting);
+            const SamplerSettings& settings);
 
     /// Forget the batch before: find the nearest triangle of each sample, then queue those that hit.
     void trace(const Batch& batch);
@@ -60,9 +76,8 @@ private:
     const Geometry& geometry_;
     const View& view_;
     const Bins& bins_;
-    std::string shadow_stage_;
-    uint32_t spp_, seed_, light_count_;
-    bool straddle_, depths_, counting_;
+    SamplerSettings settings_;
+    bool straddle_;
     bool lit_written_ = false;  ///< Of this batch.
     Batch batch_;
     uint32_t queue_count_ = 0;

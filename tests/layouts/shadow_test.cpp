@@ -51,8 +51,13 @@ protected:
                 setup.band_share == 1 ? 1ull << 40 : side.s_buffer->range_count() * 24 / setup.band_share + 16384);
             answers.bands = std::max(answers.bands, side.bands.size());
         }
-        Sampler sampler(device(), programs(), geometry, view, bins, "sample/shadow@" + setup.layout, kSpp, kSeed,
-                        static_cast<uint32_t>(sides.size()), setup.most_slots, false, setup.counting);
+        Sampler sampler(device(), programs(), geometry, view, bins,
+                        {.shadow_stage = "sample/shadow@" + setup.layout,
+                         .spp = kSpp,
+                         .seed = kSeed,
+                         .light_count = static_cast<uint32_t>(sides.size()),
+                         .most_slots = setup.most_slots,
+                         .count_ranges = setup.counting});
         answers.triangle.assign(size_t(size.x) * size.y * kSpp, SampleRecord::kMiss);
         answers.lit.assign(answers.triangle.size(), 0);
         for (const Batch& batch : split_batches(bins.grid, kSpp, setup.most_slots)) {
@@ -65,11 +70,9 @@ protected:
             }
             const std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit();
             for (size_t slot = 0; slot < hits.size(); ++slot) {
-                const auto item = static_cast<uint32_t>(slot / shared::kTileTexels),
-                           tile = batch.tile_first + item / batch.stratum_count;
-                const uint32_t x = tile % bins.grid.tiles_x * 8 + slot % 8, y = tile / bins.grid.tiles_x * 8 + slot / 8 % 8;
+                const auto [x, y, stratum] = slot_sample(batch, bins.grid, slot);
                 if (x >= size.x || y >= size.y || hits[slot] == shared::kNone) continue;
-                const size_t index = (size_t(y) * size.x + x) * kSpp + batch.stratum_first + item % batch.stratum_count;
+                const size_t index = (size_t(y) * size.x + x) * kSpp + stratum;
                 answers.triangle[index] = hits[slot] & ~shared::kReversed;
                 answers.lit[index] = lit[slot] & ((1u << sides.size()) - 1u);
             }

@@ -35,20 +35,19 @@ std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup&
     const Geometry geometry = pose_geometry(device, programs, soup.scene(), soup.poses());
     const View view = soup.view();
     const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells);
-    Sampler sampler(device, programs, geometry, view, bins, "sample/shadow@array", sampling.spp, sampling.seed, 0,
-                    sampling.most_slots, false, false);
+    Sampler sampler(
+        device, programs, geometry, view, bins,
+        {.shadow_stage = "sample/shadow@array", .spp = sampling.spp, .seed = sampling.seed, .most_slots = sampling.most_slots});
     std::vector<uint32_t> found(size_t(soup.width) * soup.height * sampling.spp, 0xdeadbeefu);
     uint64_t hits = 0;
     for (const Batch& batch : split_batches(bins.grid, sampling.spp, sampling.most_slots)) {
         sampler.trace(batch);
         const std::vector<uint32_t> slots = sampler.batch_hits();
         for (size_t slot = 0; slot < slots.size(); ++slot) {
-            const uint32_t item = static_cast<uint32_t>(slot / shared::kTileTexels),
-                           tile = batch.tile_first + item / batch.stratum_count;
-            const uint32_t x = tile % bins.grid.tiles_x * 8 + slot % 8, y = tile / bins.grid.tiles_x * 8 + slot / 8 % 8;
+            const auto [x, y, stratum] = slot_sample(batch, bins.grid, slot);
             hits += slots[slot] != shared::kNone ? 1 : 0;
             if (x >= soup.width || y >= soup.height) continue;
-            found[(size_t(y) * soup.width + x) * sampling.spp + batch.stratum_first + item % batch.stratum_count] = slots[slot];
+            found[(size_t(y) * soup.width + x) * sampling.spp + stratum] = slots[slot];
         }
     }
     // The queue holds the hits, all of them and no others; pixels outside the image hit nothing.

@@ -155,7 +155,11 @@ std::optional<TexelRange> range_of(const ContainmentCase& c, bool positive) {
     const glm::vec2 centre = glm::vec2(c.texel / kTile * kTile) + half - 0.5f * float(c.size);
     const glm::vec2 in_tile = glm::vec2(c.texel % kTile) + 0.5f - half;
     const float slack = shared::time_slack(c.cells);
-    const shared::ColumnBounds column = shared::column_bounds(triangle, centre.x, centre.y, in_tile.x, half, extent);
+    const glm::uvec2 rows = shared::tile_rows(triangle, centre.y, half, extent, slack);
+    const uint32_t row = c.texel.y % kTile;
+    if (row < rows.x || row > rows.y) return std::nullopt;
+    const shared::TileBounds bounds = shared::tile_bounds(triangle, centre.x, centre.y, half, extent);
+    const shared::ColumnBounds column = shared::column_bounds(bounds, in_tile.x);
     const glm::vec3 times = shared::texel_times(column, in_tile.y);
     if (!shared::touches_texel(times, slack)) return std::nullopt;
     const glm::vec2 range = shared::range_times(times, float(c.cell), 1.0f / float(c.cells), slack);

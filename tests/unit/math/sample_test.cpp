@@ -8,6 +8,8 @@
 #include <set>
 #include <vector>
 
+#include "shared/slot.h"
+
 namespace gnomon::test {
 namespace {
 
@@ -89,6 +91,17 @@ TEST(CellOf, SplitsTheShutter) {
             ASSERT_NEAR(double(cell), std::floor(double(t) * cells), i * int(cells) % 1000 == 0 ? 1.0 : 0.0);
             last = cell;
         }
+    }
+}
+
+TEST(TileSlot, GivesEachPixelAPlaceAndEachEightABlockOfFourByTwo) {
+    for (uint32_t slot = 0; slot < 64; ++slot) {
+        const uint32_t column = shared::slot_column(slot), row = shared::slot_row(slot), first = slot / 8 * 8;
+        ASSERT_LT(column, 8u);
+        ASSERT_LT(row, 8u);
+        EXPECT_EQ(shared::tile_slot(column, row), slot);
+        EXPECT_EQ(column / 4, shared::slot_column(first) / 4);
+        EXPECT_EQ(row / 2, shared::slot_row(first) / 2);
     }
 }
 

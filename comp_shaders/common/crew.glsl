@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A crew: neighbouring invocations that walk one list together. Each prepares an element of its own and shows it to the others in turn, which takes a shuffle a
+// number instead of a fetch and a preparation each. 8 invocations, or a whole subgroup where that is smaller.
+#extension GL_KHR_shader_subgroup_basic : require
+#extension GL_KHR_shader_subgroup_shuffle : require
+
+struct Crew {
+    uint size;
+    uint first;  // gl_SubgroupInvocationID of its first.
+    uint place;  // This one's.
+};
+
+Crew join_crew() {
+    Crew crew;
+    crew.size = min(8u, gl_SubgroupSize);
+    crew.place = gl_SubgroupInvocationID & (crew.size - 1u);
+    crew.first = gl_SubgroupInvocationID - crew.place;
+    return crew;
+}
+
+// The invocation's number in a workgroup of whole subgroups, by which a crew's are neighbours.
+uint crewed_invocation() { return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID; }
