@@ -21,7 +21,9 @@ layout(binding = 5, scalar) buffer Lit { uint lit[]; };
 layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
 layout(binding = 8) uniform samplerBuffer positions;
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
+layout(binding = 9, scalar) buffer Ticket { uint ticket; };
 layout(push_constant, scalar) uniform Push { ShadowParams params; };
+#include "common/ticket.glsl"
 #include "common/triangle.glsl"
 #include "common/batch.glsl"
 #include "common/receiver.glsl"
@@ -47,6 +49,9 @@ float occlusion_tolerance(Receiver h) {
     }
     return max(max_of(abs(p.x), abs(p.y), abs(p.z)) * (1.0 / 1048576.0), params.tolerance);
 }
+
+// The hit of the queue that this invocation tests; there is none from params.hit_count on.
+uint take_hit() { return take_ticket() * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
 
 // A hit as the light's view holds it.
 struct ShadowTest {

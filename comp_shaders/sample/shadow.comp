@@ -22,7 +22,7 @@ bool occludes(uint entry, Receiver h, float x, float y, float limit) {
 }
 
 void main() {
-    uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint i = take_hit();
     ShadowTest test = shadow_test(i);
     Receiver h = test.receiver;
 

@@ -95,8 +95,9 @@ void Recorder::dispatch_bytes(std::string_view stage, const Program& program, st
     const std::vector<Descriptor> descriptors = bind_resources(stage, *code, bindings);
     if (groups == 0) return;
     const uint64_t max_groups = impl_->device->limits.max_groups;
-    const uint64_t x = std::min(groups, max_groups);
-    const uint64_t y = (groups - 1) / x + 1;
+    // Rows of equal length: fewer than y groups run beyond the last.
+    const uint64_t y = (groups - 1) / max_groups + 1;
+    const uint64_t x = (groups - 1) / y + 1;
     if (y > max_groups) {
         fail_stage(stage, std::to_string(groups) + " workgroups, of which the device runs at most " +
                               std::to_string(max_groups) + " by " + std::to_string(max_groups));

@@ -109,6 +109,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                      {"positions", &geometry_.positions, Texel::rgba32_float},
                                      {"Lit", &lit_},
                                      {"ShadowCounts", &shadow_counts_},
+                                     {"Ticket", &ticket_},
                                      {"Iterators", &iterators_}};
     for (const gpu::Binding& b : light.s_buffer->read_bindings()) all.push_back(b);
     // The first pass over the queue writes every hit's word, later ones clear bits in it.
@@ -139,6 +140,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     band.item_count,
                                     light.s_buffer->range_base(),
                                     part};
+        recorder.fill("sample/shadow", ticket_, 0);
         recorder.dispatch("sample/shadow",
                           programs_.get(settings_.shadow_stage, {light.view.orthographic, view_.orthographic, straddle_,
                                                                  settings_.count_ranges, parts > 1, first}),

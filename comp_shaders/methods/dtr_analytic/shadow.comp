@@ -11,7 +11,7 @@
 #include "common/shadow_test.glsl"
 
 void main() {
-    uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint i = take_hit();
     ShadowTest test = shadow_test(i);
     float t = test.receiver.t;
     // Ranges hold metres along the view's axis, which a perspective view's depth is not.
