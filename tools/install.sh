@@ -10,7 +10,7 @@ packages=(
   libglm-dev libtinygltf-dev libstb-dev nlohmann-json3-dev
   libopenexr-dev libpng-dev
   libspdlog-dev libcli11-dev
-  libgtest-dev libgmock-dev libbenchmark-dev libembree-dev
+  libgtest-dev libgmock-dev libembree-dev
 )
 
 fail() {

@@ -9,6 +9,7 @@
 
 #include "layouts/layout.hpp"
 #include "methods/method.hpp"
+#include "support/two_cubes.hpp"
 #include "unit/io/test_folder.hpp"
 #include "unit/io/throws.hpp"
 
@@ -21,20 +22,9 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text.replace(at, from.size(), to);
 }
 
-class ExternalLayoutTest : public TestFolder {
+class ExternalLayoutTest : public TwoCubes<TestFolder> {
 protected:
-    static Renderer& renderer() {
-        static Renderer shared("", true);
-        return shared;
-    }
-
-    ExternalLayoutTest() : scene(load_scene(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / "two-cubes.gltf")) {
-        poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 0.5, 2);
-        if (scene.cameras.empty()) add_default_camera(scene, poses, bounds_of(scene, poses), 1.0);
-        if (scene.lights.empty()) add_default_light(scene, poses);
-        settings.width = 48;
-        settings.height = 48;
-        settings.spp = 4;
+    ExternalLayoutTest() : TwoCubes(48, 48, 4) {
         settings.shadow_res = 128;
         settings.count_ranges = true;
         settings.layout = folder.string();
@@ -58,10 +48,8 @@ protected:
     }
     Frame render() { return render(folder.string()); }
 
-    static void expect_same_bits(const Frame& frame, const Frame& expected) {
-        ASSERT_EQ(frame.channels.size(), expected.channels.size());
-        for (size_t i = 0; i < frame.channels.size(); ++i)
-            EXPECT_TRUE(frame.channels[i].values == expected.channels[i].values) << frame.channels[i].name;
+    static void expect_same_frame(const Frame& frame, const Frame& expected) {
+        expect_same_bits(frame, expected);
         EXPECT_EQ(frame.stats.counts.at("ranges.0"), expected.stats.counts.at("ranges.0"));
     }
 
@@ -75,10 +63,6 @@ protected:
     }
 
     std::string path(const std::string& file) const { return (std::filesystem::canonical(folder) / file).string(); }
-
-    Scene scene;
-    std::vector<Pose> poses;
-    RenderSettings settings;
 };
 
 TEST_F(ExternalLayoutTest, GivesTheBitsOfTheSameLayoutBuiltIn) {
@@ -89,7 +73,7 @@ TEST_F(ExternalLayoutTest, GivesTheBitsOfTheSameLayoutBuiltIn) {
             copy_layout(layout);
             const Frame frame = render();
             EXPECT_EQ(frame.effective.at("layout"), "own");
-            expect_same_bits(frame, render(layout));
+            expect_same_frame(frame, render(layout));
         }
     }
 }
@@ -101,7 +85,7 @@ TEST_F(ExternalLayoutTest, IsReadAnewForEachFrame) {
     edit("layout.glsl", "return it.x < it.y;", "return false;");
     EXPECT_EQ(render().stats.counts.at("ranges_visited"), 0u);
     edit("layout.glsl", "return false;", "return it.x < it.y;");
-    expect_same_bits(render(), expected);
+    expect_same_frame(render(), expected);
 }
 
 TEST_F(ExternalLayoutTest, DoesNotTakeThePlaceOfOneBuiltIn) {
@@ -110,7 +94,7 @@ TEST_F(ExternalLayoutTest, DoesNotTakeThePlaceOfOneBuiltIn) {
     edit("layout.json", "\"own\"", "\"array\"");
     edit("layout.glsl", "return it.x < it.y;", "return false;");
     EXPECT_EQ(render().stats.counts.at("ranges_visited"), 0u);
-    expect_same_bits(render("array"), expected);
+    expect_same_frame(render("array"), expected);
 }
 
 TEST_F(ExternalLayoutTest, MayBeInSeveralFiles) {
@@ -119,7 +103,7 @@ TEST_F(ExternalLayoutTest, MayBeInSeveralFiles) {
     put_content(folder / "parts" / "all.glsl", "#include \"more.glsl\"\n");
     put_content(folder / "parts" / "more.glsl", content_of(folder / "layout.glsl"));
     put_content(folder / "layout.glsl", "#include \"parts/all.glsl\"\n");
-    expect_same_bits(render(), render("array"));
+    expect_same_frame(render(), render("array"));
 
     edit("parts/more.glsl", "return it.x < it.y;", "return it.x < it.q;");
     expect_input_error({"layout does not compile", path("parts/more.glsl:"), "'q'"});

@@ -7,29 +7,16 @@
 #include <gnomon/render.hpp>
 
 #include "layouts/layout.hpp"
+#include "support/two_cubes.hpp"
 
 namespace gnomon::test {
 namespace {
 
 constexpr uint64_t kMebibyte = 1u << 20;
 
-class PictureTest : public testing::Test {
+class PictureTest : public TwoCubes<> {
 protected:
-    static Renderer& renderer() {
-        static Renderer shared("", true);
-        return shared;
-    }
-
-    PictureTest() : scene(load_scene(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / "two-cubes.gltf")) {
-        poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 0.5, 2);
-        const Bounds bounds = bounds_of(scene, poses);
-        if (scene.cameras.empty()) add_default_camera(scene, poses, bounds, 1.5);
-        if (scene.lights.empty()) add_default_light(scene, poses);
-        settings.width = 96;
-        settings.height = 64;
-        settings.spp = 8;
-        settings.shadow_res = 400;
-    }
+    PictureTest() : TwoCubes(96, 64, 8) { settings.shadow_res = 400; }
 
     static uint64_t fills(const Frame& frame) {
         uint64_t dispatches = 0;
@@ -37,16 +24,6 @@ protected:
             dispatches += stage.name == "raster/fill" ? stage.dispatches : 0;
         return dispatches;
     }
-
-    static void expect_same_bits(const Frame& frame, const Frame& expected) {
-        ASSERT_EQ(frame.channels.size(), expected.channels.size());
-        for (size_t i = 0; i < frame.channels.size(); ++i)
-            EXPECT_TRUE(frame.channels[i].values == expected.channels[i].values) << frame.channels[i].name;
-    }
-
-    Scene scene;
-    std::vector<Pose> poses;
-    RenderSettings settings;
 };
 
 TEST_F(PictureTest, IsTheSameInEveryLayout) {

@@ -7,36 +7,20 @@
 #include <gnomon/render.hpp>
 
 #include "layouts/layout.hpp"
+#include "support/two_cubes.hpp"
 
 namespace gnomon::test {
 namespace {
 
-class DtrAnalyticTest : public testing::Test {
+class DtrAnalyticTest : public TwoCubes<> {
 protected:
-    static Renderer& renderer() {
-        static Renderer shared("", true);
-        return shared;
-    }
-
-    DtrAnalyticTest() : scene(load_scene(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / "two-cubes.gltf")) {
-        poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 0.5, 2);
-        if (scene.cameras.empty()) add_default_camera(scene, poses, bounds_of(scene, poses), 1.5);
-        if (scene.lights.empty()) add_default_light(scene, poses);
-        settings.width = 96;
-        settings.height = 64;
-        settings.spp = 8;
-        settings.keep_samples = true;
-    }
+    DtrAnalyticTest() : TwoCubes(96, 64, 8) { settings.keep_samples = true; }
 
     Frame render(const std::string& method, uint32_t shadow_res) {
         settings.method = method;
         settings.shadow_res = shadow_res;
         return renderer().render(scene, poses, settings);
     }
-
-    Scene scene;
-    std::vector<Pose> poses;
-    RenderSettings settings;
 };
 
 struct Difference {

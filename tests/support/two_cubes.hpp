@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixture: small frames of the shipped scene two-cubes, on a device with validation.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <gnomon/render.hpp>
+
+namespace gnomon::test {
+
+/// Base: the fixture's own base. Camera and light are added where the scene has none.
+template <class Base = testing::Test>
+class TwoCubes : public Base {
+protected:
+    static Renderer& renderer() {
+        static Renderer shared("", true);
+        return shared;
+    }
+
+    TwoCubes(uint32_t width, uint32_t height, uint32_t spp)
+        : scene(load_scene(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / "two-cubes.gltf")) {
+        poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 0.5, 2);
+        if (scene.cameras.empty())
+            add_default_camera(scene, poses, bounds_of(scene, poses), static_cast<double>(width) / height);
+        if (scene.lights.empty()) add_default_light(scene, poses);
+        settings.width = width;
+        settings.height = height;
+        settings.spp = spp;
+    }
+
+    static void expect_same_bits(const Frame& frame, const Frame& expected) {
+        ASSERT_EQ(frame.channels.size(), expected.channels.size());
+        for (size_t i = 0; i < frame.channels.size(); ++i)
+            EXPECT_TRUE(frame.channels[i].values == expected.channels[i].values) << frame.channels[i].name;
+    }
+
+    Scene scene;
+    std::vector<Pose> poses;
+    RenderSettings settings;
+};
+
+}  // namespace gnomon::test
