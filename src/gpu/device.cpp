@@ -116,29 +116,40 @@ Device::Impl::Impl(const std::string& choice, bool validate)
 
     const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     fence = create<OwnedFence>(device.get(), vkCreateFence, fence_info, "a fence");
-    const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                            .queueFamilyIndex = candidate.queue_family};
-    once_pool = create<OwnedCommandPool>(device.get(), vkCreateCommandPool, pool_info, "a command pool");
 }
 
+Commands Device::Impl::take_commands() {
+    Commands commands;
+    if (!idle_commands.empty()) {
+        commands = std::move(idle_commands.back());
+        idle_commands.pop_back();
+        check(vkResetCommandPool(device.get(), commands.pool.get(), 0), "reset a command pool");
+        return commands;
+    }
+    const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
+                                            .queueFamilyIndex = candidate.queue_family};
+    commands.pool = create<OwnedCommandPool>(device.get(), vkCreateCommandPool, pool_info, "a command pool");
+    const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                           .commandPool = commands.pool.get(),
+                                           .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
+                                           .commandBufferCount = 1};
+    check(vkAllocateCommandBuffers(device.get(), &info, &commands.buffer), "allocate a command buffer");
+    return commands;
+}
+
+void Device::Impl::put_back(Commands commands) { idle_commands.push_back(std::move(commands)); }
+
 void Device::Impl::run_once(const std::function<void(VkCommandBuffer)>& record) {
-    check(vkResetCommandPool(device.get(), once_pool.get(), VK_COMMAND_POOL_RESET_RELEASE_RESOURCES_BIT),
-          "reset a command pool");
-    const VkCommandBufferAllocateInfo allocate_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                                    .commandPool = once_pool.get(),
-                                                    .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                                    .commandBufferCount = 1};
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    check(vkAllocateCommandBuffers(device.get(), &allocate_info, &commands), "allocate a command buffer");
+    Commands commands = take_commands();
     const VkCommandBufferBeginInfo begin_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                               .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &begin_info), "begin a command buffer");
-    record_barrier(commands);
-    record(commands);
-    record_host_barrier(commands);
-    check(vkEndCommandBuffer(commands), "end a command buffer");
-    submit_and_wait(commands);
-    vkFreeCommandBuffers(device.get(), once_pool.get(), 1, &commands);
+    check(vkBeginCommandBuffer(commands.buffer, &begin_info), "begin a command buffer");
+    record_barrier(commands.buffer);
+    record(commands.buffer);
+    record_host_barrier(commands.buffer);
+    check(vkEndCommandBuffer(commands.buffer), "end a command buffer");
+    submit_and_wait(commands.buffer);
+    put_back(std::move(commands));
 }
 
 void Device::Impl::submit_and_wait(VkCommandBuffer commands) {

@@ -10,6 +10,9 @@ namespace gnomon::gpu {
 
 struct Recorder::Impl {
     explicit Impl(const std::shared_ptr<Device::Impl>& owner);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
 
     /// Add one command to the stage; record_command(commands) records it.
     template <class Record>
@@ -20,8 +23,7 @@ struct Recorder::Impl {
     Buffer::Impl& use(std::string_view stage, const Buffer& buffer, const std::string& name);
 
     std::shared_ptr<Device::Impl> device;
-    OwnedCommandPool pool;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
+    Commands commands;
     bool recording = false;
     DescriptorSets sets;
     Timestamps timestamps;
@@ -29,22 +31,16 @@ struct Recorder::Impl {
     std::vector<std::shared_ptr<const void>> in_use;
 };
 
-Recorder::Impl::Impl(const std::shared_ptr<Device::Impl>& owner) : device(owner), sets(*owner), timestamps(*owner) {
-    const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
-                                            .queueFamilyIndex = device->candidate.queue_family};
-    pool = create<OwnedCommandPool>(device->device.get(), vkCreateCommandPool, pool_info, "a command pool");
-    const VkCommandBufferAllocateInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                           .commandPool = pool.get(),
-                                           .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                           .commandBufferCount = 1};
-    check(vkAllocateCommandBuffers(device->device.get(), &info, &commands), "allocate a command buffer");
-}
+Recorder::Impl::Impl(const std::shared_ptr<Device::Impl>& owner)
+    : device(owner), commands(owner->take_commands()), sets(*owner), timestamps(*owner) {}
+
+Recorder::Impl::~Impl() { device->put_back(std::move(commands)); }
 
 void Recorder::Impl::begin() {
     if (recording) return;
     const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                         .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands, &info), "begin a command buffer");
+    check(vkBeginCommandBuffer(commands.buffer, &info), "begin a command buffer");
     recording = true;
 }
 
@@ -55,20 +51,20 @@ void Recorder::Impl::add(std::string_view stage, Record record_command) {
     const Instance& instance = device->instance;
     if (instance.begin_label) {
         const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name.c_str()};
-        instance.begin_label(commands, &label);
+        instance.begin_label(commands.buffer, &label);
     }
-    record_barrier(commands);
-    timestamps.record(commands);
-    record_command(commands);
-    timestamps.record(commands);
-    if (instance.end_label) instance.end_label(commands);
+    record_barrier(commands.buffer);
+    timestamps.record(commands.buffer);
+    record_command(commands.buffer);
+    timestamps.record(commands.buffer);
+    if (instance.end_label) instance.end_label(commands.buffer);
 }
 
 void Recorder::Impl::reset() {
     recording = false;
     stages.clear();
     timestamps.reset();
-    check(vkResetCommandPool(device->device.get(), pool.get(), 0), "reset a command pool");
+    check(vkResetCommandPool(device->device.get(), commands.pool.get(), 0), "reset a command pool");
     sets.reset();
     in_use.clear();
 }
@@ -148,9 +144,9 @@ void Recorder::submit() {
         return;
     }
     try {
-        record_host_barrier(impl.commands);
-        check(vkEndCommandBuffer(impl.commands), "end a command buffer");
-        impl.device->submit_and_wait(impl.commands);
+        record_host_barrier(impl.commands.buffer);
+        check(vkEndCommandBuffer(impl.commands.buffer), "end a command buffer");
+        impl.device->submit_and_wait(impl.commands.buffer);
         const std::vector<double> seconds = impl.timestamps.seconds_between_pairs();
         for (size_t i = 0; i < seconds.size(); ++i) impl.device->add_stage_time(impl.stages[i], seconds[i]);
     } catch (...) {

@@ -103,6 +103,12 @@ std::vector<Candidate> find_candidates(const Instance& instance);
 /// Errors: ErrorKind::no_device.
 Candidate choose_candidate(const Instance& instance, const std::string& choice);
 
+/// A command buffer in a pool of its own.
+struct Commands {
+    OwnedCommandPool pool;
+    VkCommandBuffer buffer = VK_NULL_HANDLE;
+};
+
 struct DestroyDevice {
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
 };
@@ -110,6 +116,10 @@ struct DestroyDevice {
 struct Device::Impl {
     Impl(const std::string& choice, bool validate);
 
+    /// A command buffer, reset; the caller lends it and puts it back. None is freed before the device is: the validation layer
+    /// of 1.3.239 drops the labels of a freed one in a thread of its own, without its lock (its issue 5172).
+    Commands take_commands();
+    void put_back(Commands commands);
     /// Record one command buffer, run it and wait.
     void run_once(const std::function<void(VkCommandBuffer)>& record);
     /// Run an ended command buffer and wait. Errors as Recorder::submit.
@@ -140,7 +150,7 @@ struct Device::Impl {
     bool map_buffers = false;  ///< Device memory is as good to read and write from the host as host memory.
     VkQueue queue = VK_NULL_HANDLE;
     OwnedFence fence;
-    OwnedCommandPool once_pool;
+    std::vector<Commands> idle_commands;
     Memory staging_memory;
 
     size_t messages_thrown = 0;

@@ -22,18 +22,18 @@ uint8_t srgb8(double linear) {
 }
 
 std::vector<uint8_t> tone_map(std::span<const Channel> channels, double exposure_ev) {
-    constexpr std::array names = {"R", "G", "B"};
+    constexpr std::array kNames = {"R", "G", "B"};
     const double scale = std::exp2(exposure_ev);
     std::vector<uint8_t> rgb;
-    for (size_t i = 0; i < names.size(); ++i) {
+    for (size_t i = 0; i < kNames.size(); ++i) {
         const auto channel =
-            std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == names[i]; });
+            std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == kNames[i]; });
         if (channel == channels.end())
-            throw Error(ErrorKind::input, std::string("an image without a channel ") + names[i] + " cannot be a PNG", "",
+            throw Error(ErrorKind::input, std::string("an image without a channel ") + kNames[i] + " cannot be a PNG", "",
                         "give an image with the channels R, G and B");
-        rgb.resize(channel->values.size() * names.size());
+        rgb.resize(channel->values.size() * kNames.size());
         for (size_t pixel = 0; pixel < channel->values.size(); ++pixel)
-            rgb[pixel * names.size() + i] = srgb8(channel->values[pixel] * scale);
+            rgb[pixel * kNames.size() + i] = srgb8(channel->values[pixel] * scale);
     }
     return rgb;
 }

@@ -6,11 +6,11 @@
 #include <gnomon/error.hpp>
 #include <gnomon/version.hpp>
 #include <iostream>
-#include <new>
 #include <thread>
 
 #include "bench/report.hpp"
 #include "io/atomic_file.hpp"
+#include "tool_main.hpp"
 
 namespace {
 
@@ -103,30 +103,11 @@ void run(const Options& options) {
     }
 }
 
-int fail(const std::string& message, ErrorKind kind) {
-    std::cerr << "frame_bench: error: " << message << '\n';
-    return static_cast<int>(kind);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app("Times whole frames of gnomon and of the Embree reference in turn.", "frame_bench");
     Options options;
     add_options(app, options);
-    try {
-        app.parse(argc, argv);
-        run(options);
-        return 0;
-    } catch (const CLI::Success& request) {  // --help or --version
-        return app.exit(request);
-    } catch (const CLI::ParseError& error) {
-        return fail(std::string(error.what()) + ", command line; see 'frame_bench --help'", ErrorKind::usage);
-    } catch (const Error& error) {
-        return fail(error.what(), error.kind());
-    } catch (const std::bad_alloc&) {
-        return fail("out of memory, on the host; use a smaller --scale or fewer --spp", ErrorKind::out_of_memory);
-    } catch (const std::exception& error) {
-        return fail(std::string("internal error: ") + error.what(), ErrorKind::internal);
-    }
+    return tools::tool_main(app, argc, argv, "use a smaller --scale or fewer --spp", [&] { run(options); });
 }

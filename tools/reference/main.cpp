@@ -5,7 +5,6 @@
 #include <gnomon/error.hpp>
 #include <gnomon/version.hpp>
 #include <iostream>
-#include <new>
 #include <optional>
 
 #include "gnomon/additions.hpp"
@@ -14,6 +13,7 @@
 #include "io/exr.hpp"
 #include "io/report.hpp"
 #include "reference.hpp"
+#include "tool_main.hpp"
 
 namespace {
 
@@ -129,30 +129,11 @@ void run(Options options) {
     if (!options.quiet) print_table(frame.stats);
 }
 
-int fail(const std::string& message, ErrorKind kind) {
-    std::cerr << "reference: error: " << message << '\n';
-    return static_cast<int>(kind);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app("Traces a motion-blurred frame with Embree, for gnomon's frames to be compared with.", "reference");
     Options options;
     add_options(app, options);
-    try {
-        app.parse(argc, argv);
-        run(options);
-        return 0;
-    } catch (const CLI::Success& request) {  // --help or --version
-        return app.exit(request);
-    } catch (const CLI::ParseError& error) {
-        return fail(std::string(error.what()) + ", command line; see 'reference --help'", ErrorKind::usage);
-    } catch (const Error& error) {
-        return fail(error.what(), error.kind());
-    } catch (const std::bad_alloc&) {
-        return fail("out of memory, on the host; trace a smaller image or a smaller scene", ErrorKind::out_of_memory);
-    } catch (const std::exception& error) {
-        return fail(std::string("internal error: ") + error.what(), ErrorKind::internal);
-    }
+    return tools::tool_main(app, argc, argv, "trace a smaller image or a smaller scene", [&] { run(options); });
 }
