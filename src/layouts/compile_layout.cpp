@@ -90,12 +90,8 @@ private:
         std::string file = part[1], place = file + ":" + std::string(part[2]), message = part[3];
         // Elsewhere than in the layout: a stage does not find there what it asks for.
         const bool in_layout = fs::path(file).is_absolute();
-        what = message;
-        if (in_layout) {
-            where = place;
-        } else {
-            what.append(" (").append(place).append(")");
-        }
+        what = message + (in_layout ? "" : " (" + place + ")");
+        if (in_layout) where = place;
         break;
     }
     throw Error(ErrorKind::input, "layout does not compile: " + what, where, kHint);

@@ -89,7 +89,7 @@ void add_default_camera(Scene& scene, std::vector<Pose>& poses, const Bounds& bo
     scene.cameras.push_back(camera);
     for (Pose& pose : poses) pose.cameras.push_back(place);
     change_rig(scene, [&](Rig& rig) { rig.cameras.push_back({Rig::kNoNode, place}); });
-    scene.warnings.push_back("the scene has no camera: one that frames it was added at (" + fixed3(place.translation.x) + ", " +
+    scene.warnings.emplace_back("the scene has no camera: one that frames it was added at (" + fixed3(place.translation.x) + ", " +
                              fixed3(place.translation.y) + ", " + fixed3(place.translation.z) + ")");
 }
 
@@ -102,7 +102,7 @@ void add_default_light(Scene& scene, std::vector<Pose>& poses) {
     scene.lights.push_back(light);
     for (Pose& pose : poses) pose.lights.push_back(place);
     change_rig(scene, [&](Rig& rig) { rig.lights.push_back({Rig::kNoNode, place}); });
-    scene.warnings.push_back("the scene has no light: a directional light from the upper left was added");
+    scene.warnings.emplace_back("the scene has no light: a directional light from the upper left was added");
 }
 
 void add_ground(Scene& scene, std::vector<Pose>& poses, glm::vec2 center_xz, float y, float half_size) {

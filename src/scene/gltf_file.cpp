@@ -158,7 +158,7 @@ fs::path resolve(const fs::path& folder, const Cursor& uri) {
         uri.fail("the address '" + text + "' leaves the scene's folder", stay_inside);
     }
     std::error_code code;
-    const fs::path path = fs::canonical(folder / relative, code);
+    fs::path path = fs::canonical(folder / relative, code);
     if (code) uri.fail("the file '" + text + "' cannot be found", "put it into the scene's folder");
     if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end()) {
         uri.fail("the address '" + text + "' leads out of the scene's folder by a link", stay_inside);

@@ -110,8 +110,9 @@ bool same_answer(const SampleRecord& a, const SampleRecord& b) { return a.triang
 bool nearby_answer(const oracle::BruteForce& oracle, const glm::vec3& p, const SampleRecord& record) {
     constexpr double kPixels = 2e-4, kTime = 1e-6;
     for (int i = 0; i < 27; ++i) {
-        const glm::dvec3 step((i % 3 - 1) * kPixels, (i / 3 % 3 - 1) * kPixels, (i / 9 - 1) * kTime);
-        if (same_answer(oracle.sample(p.x + step.x, p.y + step.y, p.z + step.z), record)) return true;
+        const glm::ivec3 direction = glm::ivec3(i, i / 3, i / 9) % 3 - 1;
+        const glm::dvec3 q = glm::dvec3(p) + glm::dvec3(direction) * glm::dvec3(kPixels, kPixels, kTime);
+        if (same_answer(oracle.sample(q.x, q.y, q.z), record)) return true;
     }
     return false;
 }
