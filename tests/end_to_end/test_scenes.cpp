@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 fs::path made_file(const std::string& name, const std::function<void(const fs::path&)>& make) {
     const fs::path folder = GNOMON_SCENE_FOLDER;
-    const fs::path path = folder / (name + ".glb");
+    fs::path path = folder / (name + ".glb");
     if (fs::exists(path)) return path;
     fs::create_directories(folder);
     // Tests run side by side: whoever is first wins, and no one reads half a file.

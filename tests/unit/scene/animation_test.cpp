@@ -65,14 +65,14 @@ TEST(Animation, RotationsTurnTheShorterWay) {
     // From 0 to 90 degrees about Z, the second quaternion negated: a third of the way is 30 degrees.
     const float h = std::sqrt(0.5f);
     animate(gltf, "rotation", "LINEAR", {0, 3}, "VEC4", {0, 0, 0, 1, 0, 0, -h, -h});
-    EXPECT_THAT(positions_at(gltf.load(), 1)[1], Near({std::sqrt(0.75f), 0.5f, 0}));
+    EXPECT_THAT(positions_at(gltf.load(), 1)[1], near_to({std::sqrt(0.75f), 0.5f, 0}));
 }
 
 TEST(Animation, RotationsFromNormalizedIntegers) {
     Gltf gltf;
     gltf.add_triangle();
     animate<int16_t>(gltf, "rotation", "STEP", {0}, "VEC4", {0, 0, 23170, 23170}, true);
-    EXPECT_THAT(positions_at(gltf.load(), 0)[1], Near({0, 1, 0}));
+    EXPECT_THAT(positions_at(gltf.load(), 0)[1], near_to({0, 1, 0}));
 }
 
 TEST(Animation, CubicRotationsAreNormalized) {
@@ -81,7 +81,7 @@ TEST(Animation, CubicRotationsAreNormalized) {
     const float h = std::sqrt(0.5f);
     animate(gltf, "rotation", "CUBICSPLINE", {0, 1}, "VEC4",
             {0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, h, h, 0, 0, 0, 0});
-    EXPECT_THAT(positions_at(gltf.load(), 0.5)[1], Near({h, h, 0}));
+    EXPECT_THAT(positions_at(gltf.load(), 0.5)[1], near_to({h, h, 0}));
 }
 
 TEST(Animation, ScaleKeepsTheRest) {
@@ -89,7 +89,7 @@ TEST(Animation, ScaleKeepsTheRest) {
     gltf.add_triangle();
     gltf.doc["nodes"][0]["translation"] = {5, 0, 0};
     animate(gltf, "scale", "LINEAR", {0, 1}, "VEC3", {1, 1, 1, 3, 3, 3});
-    EXPECT_THAT(positions_at(gltf.load(), 0.5)[1], Near({7, 0, 0}));
+    EXPECT_THAT(positions_at(gltf.load(), 0.5)[1], near_to({7, 0, 0}));
 }
 
 TEST(Animation, StridedSamplers) {
@@ -118,7 +118,7 @@ TEST(Animation, MorphWeights) {
     const Scene scene = gltf.load();
     EXPECT_THAT(pose_at(scene, 0).morph_weights, testing::ElementsAre(0.0f, testing::FloatEq(0.2f)));
     // At a half 0.5 and 0.6, both targets one up.
-    EXPECT_THAT(positions_at(scene, 0.5)[0], Near({0, 0, 1.1f}));
+    EXPECT_THAT(positions_at(scene, 0.5)[0], near_to({0, 0, 1.1f}));
 }
 
 TEST(Animation, CubicMorphWeightsComeInThreeGroups) {
@@ -185,7 +185,7 @@ TEST(Animation, ChannelsThatCannotBeFollowedAreCounted) {
     channels.push_back(channels[0]);
     const Scene scene = gltf.load();
     EXPECT_EQ(x_at(scene, 0), 7.0f);
-    EXPECT_THAT(scene.warnings, HasWarning("animation 0: 3 channels"));
+    EXPECT_THAT(scene.warnings, has_warning("animation 0: 3 channels"));
 }
 
 TEST(Animation, ResultsThatAreNotFiniteAreErrorsWhenPosed) {

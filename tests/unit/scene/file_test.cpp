@@ -63,7 +63,7 @@ TEST(File, Glb) {
     const std::string binary = chunk(std::string("BIN\0", 4), numbers);
     EXPECT_EQ(load_scene(folder.write("a.glb", glb(text + binary))).vertices[1].position, glm::vec3(1, 0, 0));
 
-    EXPECT_THAT(load_scene(folder.write("a.glb", glb(text + binary) + "tail")).warnings, HasWarning("4 bytes behind the end"));
+    EXPECT_THAT(load_scene(folder.write("a.glb", glb(text + binary) + "tail")).warnings, has_warning("4 bytes behind the end"));
     EXPECT_THAT(error_of(folder.write("a.glb", glb(text))), HasSubstr("no BIN chunk"));
     EXPECT_THAT(error_of(folder.write("a.glb", glb(text + binary + binary))), HasSubstr("more than one BIN"));
     EXPECT_THAT(error_of(folder.write("a.glb", glb(text + text))), HasSubstr("one JSON chunk"));

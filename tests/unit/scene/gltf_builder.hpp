@@ -141,8 +141,8 @@ MATCHER_P2(IsNear, expected, tolerance, "") {
     return true;
 }
 
-inline auto Near(glm::vec3 expected, float tolerance = 1e-6f) { return IsNear(expected, tolerance); }
+inline auto near_to(glm::vec3 expected, float tolerance = 1e-6f) { return IsNear(expected, tolerance); }
 
-inline auto HasWarning(const std::string& text) { return testing::Contains(testing::HasSubstr(text)); }
+inline auto has_warning(const std::string& text) { return testing::Contains(testing::HasSubstr(text)); }
 
 }  // namespace gnomon::test

@@ -70,7 +70,7 @@ TEST(Material, SecondSetOfTextureCoordinates) {
     EXPECT_EQ(scene.vertices[0].uv, glm::vec2(1, 0));
     EXPECT_FLOAT_EQ(scene.vertices[2].uv.x, 0.2f);
     texture_info(gltf)["texCoord"] = 2;
-    EXPECT_THAT(gltf.load().warnings, HasWarning("1 textured primitives lack"));
+    EXPECT_THAT(gltf.load().warnings, has_warning("1 textured primitives lack"));
 }
 
 TEST(Material, TextureTransform) {
@@ -103,7 +103,7 @@ TEST(Material, VertexColours) {
               glm::vec4(1, 0, 0, 0));
     const auto [color, warnings] = color_of("VEC3", std::vector<float>{0, 0, 0, 0, 0, 0, 2, -1, 0.5}, false);
     EXPECT_EQ(color, glm::vec4(1, 0, 0.5, 1));
-    EXPECT_THAT(warnings, HasWarning("1 vertex colours are outside 0 to 1"));
+    EXPECT_THAT(warnings, has_warning("1 vertex colours are outside 0 to 1"));
 }
 
 TEST(Material, AlphaModesAndFiltersAreNamed) {
@@ -112,9 +112,9 @@ TEST(Material, AlphaModesAndFiltersAreNamed) {
     gltf.doc["samplers"][0]["magFilter"] = 9728;
     gltf.add("materials", {{"alphaMode", "MASK"}});
     const std::vector<std::string> warnings = gltf.load().warnings;
-    EXPECT_THAT(warnings, HasWarning("alpha blending is ignored, surfaces are opaque: materials 0 'Floor'"));
-    EXPECT_THAT(warnings, HasWarning("alpha masks are ignored, surfaces are opaque: materials 1"));
-    EXPECT_THAT(warnings, HasWarning("nearest filtering is ignored"));
+    EXPECT_THAT(warnings, has_warning("alpha blending is ignored, surfaces are opaque: materials 0 'Floor'"));
+    EXPECT_THAT(warnings, has_warning("alpha masks are ignored, surfaces are opaque: materials 1"));
+    EXPECT_THAT(warnings, has_warning("nearest filtering is ignored"));
 }
 
 TEST(Material, ImagesThatCannotBeDecoded) {
@@ -124,7 +124,7 @@ TEST(Material, ImagesThatCannotBeDecoded) {
     EXPECT_THAT(gltf.error(), HasSubstr("'wood.webp' cannot be found"));
     gltf.folder.write("wood.webp", "RIFF....WEBP");
     const Scene scene = gltf.load();
-    EXPECT_THAT(scene.warnings, HasWarning("image 0 is neither PNG nor JPEG"));
+    EXPECT_THAT(scene.warnings, has_warning("image 0 is neither PNG nor JPEG"));
     EXPECT_EQ(scene.materials[0].image, -1);
 }
 
@@ -133,7 +133,7 @@ TEST(Material, TexturesOfOtherFormatsHaveNoSource) {
     with_texture(gltf).doc["extensionsUsed"] = {"EXT_texture_webp"};
     gltf.doc["textures"][0] = {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}};
     const Scene scene = gltf.load();
-    EXPECT_THAT(scene.warnings, HasWarning("material 0 'Floor': its texture has no image in PNG or JPEG"));
+    EXPECT_THAT(scene.warnings, has_warning("material 0 'Floor': its texture has no image in PNG or JPEG"));
     EXPECT_EQ(scene.materials[0].image, -1);
     gltf.doc["extensionsRequired"] = {"EXT_texture_webp"};
     EXPECT_THAT(gltf.error(), HasSubstr("EXT_texture_webp"));

@@ -54,15 +54,15 @@ TEST(Mesh, PointsAndLinesAreCounted) {
     for (int mode = 0; mode < 4; ++mode) {
         const Scene scene = with_mode(mode, 4);
         EXPECT_TRUE(scene.triangles.empty());
-        EXPECT_THAT(scene.warnings, HasWarning("1 primitives of points or lines are ignored"));
+        EXPECT_THAT(scene.warnings, has_warning("1 primitives of points or lines are ignored"));
     }
 }
 
 TEST(Mesh, LeftoverIndicesAreCounted) {
     const Scene scene = with_mode(4, 5);
     EXPECT_EQ(scene.triangles.size(), 1u);
-    EXPECT_THAT(scene.warnings, HasWarning("2 indices left over"));
-    EXPECT_THAT(with_mode(5, 2).warnings, HasWarning("2 indices left over"));
+    EXPECT_THAT(scene.warnings, has_warning("2 indices left over"));
+    EXPECT_THAT(with_mode(5, 2).warnings, has_warning("2 indices left over"));
 }
 
 template <typename T>
@@ -145,7 +145,7 @@ TEST(Mesh, InterleavedAttributes) {
     EXPECT_EQ(scene.vertices[0].normal, glm::vec3(0, 0, 1));
     EXPECT_EQ(scene.vertices[1].normal, glm::vec3(0));
     EXPECT_EQ(scene.vertices[2].normal, glm::vec3(0));
-    EXPECT_THAT(scene.warnings, HasWarning("2 normals are zero or not finite"));
+    EXPECT_THAT(scene.warnings, has_warning("2 normals are zero or not finite"));
 }
 
 json sparse(Gltf& gltf, const std::vector<uint16_t>& indices, const std::vector<float>& values) {
@@ -220,7 +220,7 @@ TEST(Mesh, InstancesShareNothingButDeltas) {
     gltf.doc["nodes"].push_back({{"mesh", 0}, {"translation", {5, 0, 0}}});
     const Scene scene = gltf.load();
     EXPECT_THAT(triangles_of(scene), ElementsAre(Indices{0, 1, 2}, Indices{3, 4, 5}));
-    EXPECT_THAT(positions_at(scene, 0)[4], Near({6, 0, 0}));
+    EXPECT_THAT(positions_at(scene, 0)[4], near_to({6, 0, 0}));
 }
 
 // Two targets; the second without positions.
@@ -238,9 +238,9 @@ TEST(Mesh, MorphTargetsAddUp) {
     Gltf gltf;
     const Scene scene = with_morph(gltf).load();
     const std::vector<glm::vec3> positions = positions_at(scene, 0);
-    EXPECT_THAT(positions[0], Near({0, 2, 0.5}));
-    EXPECT_THAT(positions[1], Near({1, 2, 1}));
-    EXPECT_THAT(positions[2], Near({0, 3, 1.5}));
+    EXPECT_THAT(positions[0], near_to({0, 2, 0.5}));
+    EXPECT_THAT(positions[1], near_to({1, 2, 1}));
+    EXPECT_THAT(positions[2], near_to({0, 3, 1.5}));
     EXPECT_EQ(scene.morph_normals[3], glm::vec3(1, 0, 0));
 }
 
@@ -251,8 +251,8 @@ TEST(Mesh, NodesOverrideMorphWeights) {
     const Scene scene = gltf.load();
     ASSERT_EQ(scene.morphs.size(), 3u);
     EXPECT_EQ(scene.morphs[1].delta_first, scene.morphs[2].delta_first);
-    EXPECT_THAT(positions_at(scene, 0)[1], Near({1, 2, 1}));
-    EXPECT_THAT(positions_at(scene, 0)[4], Near({1, 8, 0}));
+    EXPECT_THAT(positions_at(scene, 0)[1], near_to({1, 2, 1}));
+    EXPECT_THAT(positions_at(scene, 0)[4], near_to({1, 8, 0}));
 }
 
 TEST(Mesh, MorphTargetsMustFit) {

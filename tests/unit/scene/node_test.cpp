@@ -16,9 +16,9 @@ TEST(Node, ScaleThenRotationThenTranslation) {
     gltf.add_triangle();
     gltf.doc["nodes"][0].update({{"translation", {10, 20, 30}}, {"rotation", {0, 0, kHalf, kHalf}}, {"scale", {2, 3, 4}}});
     const std::vector<glm::vec3> positions = positions_at(gltf.load(), 0);
-    EXPECT_THAT(positions[0], Near({10, 20, 30}));
-    EXPECT_THAT(positions[1], Near({10, 22, 30}, 1e-5f));  // (2, 0, 0) turned by 90 degrees about Z is (0, 2, 0).
-    EXPECT_THAT(positions[2], Near({7, 20, 30}, 1e-5f));   // (0, 3, 0) becomes (-3, 0, 0).
+    EXPECT_THAT(positions[0], near_to({10, 20, 30}));
+    EXPECT_THAT(positions[1], near_to({10, 22, 30}, 1e-5f));  // (2, 0, 0) turned by 90 degrees about Z is (0, 2, 0).
+    EXPECT_THAT(positions[2], near_to({7, 20, 30}, 1e-5f));   // (0, 3, 0) becomes (-3, 0, 0).
 }
 
 TEST(Node, MatricesAreColumnMajorAndParentsApplyLast) {
@@ -27,8 +27,8 @@ TEST(Node, MatricesAreColumnMajorAndParentsApplyLast) {
     gltf.doc["nodes"][0]["matrix"] = {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 2, 3, 1};
     gltf.add("nodes", {{"children", {0}}, {"scale", {-1, 1, 0}}});
     const std::vector<glm::vec3> positions = positions_at(gltf.load(), 0);
-    EXPECT_THAT(positions[1], Near({-3, 2, 0}));
-    EXPECT_THAT(positions[2], Near({-1, 4, 0}));
+    EXPECT_THAT(positions[1], near_to({-3, 2, 0}));
+    EXPECT_THAT(positions[2], near_to({-1, 4, 0}));
 }
 
 TEST(Node, DefaultSceneElseFirstElseAll) {
@@ -38,7 +38,7 @@ TEST(Node, DefaultSceneElseFirstElseAll) {
     gltf.doc["nodes"].push_back({{"mesh", 0}, {"translation", {2, 0, 0}}});
     EXPECT_EQ(gltf.load().triangles.size(), 3u);
     gltf.doc["scenes"] = {{{"nodes", {2}}}, {{"nodes", {0, 1}}}};
-    EXPECT_THAT(positions_at(gltf.load(), 0)[0], Near({2, 0, 0}));
+    EXPECT_THAT(positions_at(gltf.load(), 0)[0], near_to({2, 0, 0}));
     gltf.doc["scene"] = 1;
     const Scene scene = gltf.load();
     EXPECT_EQ(scene.triangles.size(), 2u);
@@ -70,7 +70,7 @@ TEST(Node, DeepHierarchies) {
     Gltf gltf;
     gltf.add_triangle();
     for (int i = 1; i < 20000; ++i) gltf.add("nodes", {{"children", {i - 1}}, {"translation", {0, 0, 1}}});
-    EXPECT_THAT(positions_at(gltf.load(), 0)[1], Near({1, 0, 19999}));
+    EXPECT_THAT(positions_at(gltf.load(), 0)[1], near_to({1, 0, 19999}));
 }
 
 TEST(Node, IndicesOutOfRangeAreErrors) {
@@ -100,8 +100,8 @@ TEST(Node, RotationsAreNormalizedWithAWarning) {
     gltf.add_triangle();
     gltf.doc["nodes"][0]["rotation"] = {0, 0, 5, 5};
     const Scene scene = gltf.load();
-    EXPECT_THAT(positions_at(scene, 0)[1], Near({0, 1, 0}));
-    EXPECT_THAT(scene.warnings, HasWarning("1 nodes have a rotation"));
+    EXPECT_THAT(positions_at(scene, 0)[1], near_to({0, 1, 0}));
+    EXPECT_THAT(scene.warnings, has_warning("1 nodes have a rotation"));
     gltf.doc["nodes"][0]["rotation"] = {0, 0, 0, 0};
     EXPECT_THAT(gltf.error(), HasSubstr("/nodes/0/rotation"));
 }
@@ -120,8 +120,8 @@ TEST(Node, CamerasInNodeOrderAndOnlyThoseShown) {
     EXPECT_EQ(scene.cameras[0].kind, CameraKind::orthographic);
     EXPECT_EQ(scene.cameras[0].ymag, 3.0);
     EXPECT_GT(scene.cameras[0].znear, 0.0);
-    EXPECT_THAT(scene.warnings, HasWarning("znear 0"));
-    EXPECT_THAT(scene.warnings, HasWarning("negative size"));
+    EXPECT_THAT(scene.warnings, has_warning("znear 0"));
+    EXPECT_THAT(scene.warnings, has_warning("negative size"));
     EXPECT_EQ(scene.cameras[1].name, "C");
     EXPECT_EQ(scene.cameras[1].node, 2);
     EXPECT_EQ(scene.cameras[1].yfov, 0.7);
@@ -205,22 +205,22 @@ Rigid camera_under(const json& parent, const json& node = json::object()) {
 TEST(Node, RigidMotionsHaveNoScale) {
     const Rigid rigid = camera_under({{"scale", {2, 3, 4}}, {"rotation", {0, kHalf, 0, kHalf}}},
                                      {{"translation", {0, 0, 1}}, {"scale", {5, 5, 5}}});
-    EXPECT_THAT(glm::vec3(rigid.translation), Near({4, 0, 0}, 1e-5f));  // (0, 0, 4) turned by 90 degrees about Y.
-    EXPECT_THAT(glm::vec3(forward(rigid)), Near({-1, 0, 0}));
-    EXPECT_THAT(glm::vec3(up(rigid)), Near({0, 1, 0}));
+    EXPECT_THAT(glm::vec3(rigid.translation), near_to({4, 0, 0}, 1e-5f));  // (0, 0, 4) turned by 90 degrees about Y.
+    EXPECT_THAT(glm::vec3(forward(rigid)), near_to({-1, 0, 0}));
+    EXPECT_THAT(glm::vec3(up(rigid)), near_to({0, 1, 0}));
     EXPECT_NEAR(glm::length(rigid.rotation), 1.0, 1e-12);
 }
 
 TEST(Node, MirroredRigidMotionsKeepViewAndUp) {
     const Rigid rigid = camera_under({{"scale", {-1, 1, 1}}}, {{"rotation", {0, kHalf, 0, kHalf}}});
-    EXPECT_THAT(glm::vec3(forward(rigid)), Near({1, 0, 0}));  // The mirrored view axis: (-1, 0, 0) becomes (1, 0, 0).
-    EXPECT_THAT(glm::vec3(up(rigid)), Near({0, 1, 0}));
+    EXPECT_THAT(glm::vec3(forward(rigid)), near_to({1, 0, 0}));  // The mirrored view axis: (-1, 0, 0) becomes (1, 0, 0).
+    EXPECT_THAT(glm::vec3(up(rigid)), near_to({0, 1, 0}));
 }
 
 TEST(Node, RigidMotionsWithZeroScaleKeepTheirRotation) {
     const Rigid rigid = camera_under({{"scale", {0, 0, 0}}, {"rotation", {kHalf, 0, 0, kHalf}}});
-    EXPECT_THAT(glm::vec3(forward(rigid)), Near({0, 1, 0}));  // -Z turned by 90 degrees about X.
-    EXPECT_THAT(glm::vec3(up(rigid)), Near({0, 0, 1}));
+    EXPECT_THAT(glm::vec3(forward(rigid)), near_to({0, 1, 0}));  // -Z turned by 90 degrees about X.
+    EXPECT_THAT(glm::vec3(up(rigid)), near_to({0, 0, 1}));
 }
 
 }  // namespace

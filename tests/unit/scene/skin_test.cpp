@@ -27,9 +27,9 @@ TEST(Skin, BlendsJointsAndIgnoresTheMeshNode) {
     Gltf gltf;
     const Scene scene = with_skin(gltf, {1, 0, 0, 0, 0, 1, 0, 0, 0.75, 0.25, 0, 0}).load();
     const std::vector<glm::vec3> positions = positions_at(scene, 0);
-    EXPECT_THAT(positions[0], Near({10, 0, 0}));
-    EXPECT_THAT(positions[1], Near({1, 100, 0}));
-    EXPECT_THAT(positions[2], Near({7.5, 26, 0}));
+    EXPECT_THAT(positions[0], near_to({10, 0, 0}));
+    EXPECT_THAT(positions[1], near_to({1, 100, 0}));
+    EXPECT_THAT(positions[2], near_to({7.5, 26, 0}));
     EXPECT_EQ(scene.skin_count, 1u);
     EXPECT_EQ(scene.vertices[0].influence_count, 1u);
     EXPECT_EQ(scene.vertices[2].influence_count, 2u);
@@ -42,8 +42,8 @@ TEST(Skin, InverseBindMatricesApplyFirst) {
     gltf.doc["skins"][0]["inverseBindMatrices"] = gltf.accessor<float>(
         "MAT4", {2, 0, 0, 0, 0, 2, 0, 0, 0, 0, 2, 0, 1, 1, 1, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -50, 0, 1});
     const std::vector<glm::vec3> positions = positions_at(gltf.load(), 0);
-    EXPECT_THAT(positions[0], Near({11, 1, 1}));
-    EXPECT_THAT(positions[1], Near({1, 50, 0}));
+    EXPECT_THAT(positions[0], near_to({11, 1, 1}));
+    EXPECT_THAT(positions[1], near_to({1, 50, 0}));
 }
 
 TEST(Skin, InverseBindMatricesMustFit) {
@@ -63,8 +63,8 @@ TEST(Skin, SkewedInverseBindMatricesAreRepairedWithAWarning) {
     matrices[15] = 2.0f;
     gltf.doc["skins"][0]["inverseBindMatrices"] = gltf.accessor<float>("MAT4", matrices);
     const Scene scene = gltf.load();
-    EXPECT_THAT(positions_at(scene, 0)[0], Near({10, 0, 0}));
-    EXPECT_THAT(scene.warnings, HasWarning("1 inverse bind matrices"));
+    EXPECT_THAT(positions_at(scene, 0)[0], near_to({10, 0, 0}));
+    EXPECT_THAT(scene.warnings, has_warning("1 inverse bind matrices"));
 }
 
 TEST(Skin, WeightsAreNormalized) {
@@ -82,11 +82,11 @@ TEST(Skin, BadWeightsCountAsZero) {
     const Scene scene =
         with_skin(gltf, {nan, 1, 0, 0, -1, 1, 0, 0, nan, nan, 0, 0}, {0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0}).load();
     const std::vector<glm::vec3> positions = positions_at(scene, 0);
-    EXPECT_THAT(positions[0], Near({0, 100, 0}));
-    EXPECT_THAT(positions[1], Near({1, 100, 0}));
-    EXPECT_THAT(positions[2], Near({0, 101, 0}));  // Without any weight: its first joint, 1.
-    EXPECT_THAT(scene.warnings, HasWarning("4 joint weights are negative or not finite"));
-    EXPECT_THAT(scene.warnings, HasWarning("1 vertices have no joint weight"));
+    EXPECT_THAT(positions[0], near_to({0, 100, 0}));
+    EXPECT_THAT(positions[1], near_to({1, 100, 0}));
+    EXPECT_THAT(positions[2], near_to({0, 101, 0}));  // Without any weight: its first joint, 1.
+    EXPECT_THAT(scene.warnings, has_warning("4 joint weights are negative or not finite"));
+    EXPECT_THAT(scene.warnings, has_warning("1 vertices have no joint weight"));
 }
 
 TEST(Skin, NormalizedIntegerWeightsAndMoreThanFourJoints) {
@@ -97,9 +97,9 @@ TEST(Skin, NormalizedIntegerWeightsAndMoreThanFourJoints) {
     attributes["JOINTS_1"] = gltf.accessor<uint16_t>("VEC4", {0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1});
     attributes["WEIGHTS_1"] = gltf.accessor<uint8_t>("VEC4", {0, 0, 0, 0, 255, 0, 0, 0, 0, 51, 0, 204}, true);
     const std::vector<glm::vec3> positions = positions_at(gltf.load(), 0);
-    EXPECT_THAT(positions[0], Near({10, 0, 0}));
-    EXPECT_THAT(positions[1], Near({1, 100, 0}));
-    EXPECT_THAT(positions[2], Near({2, 81, 0}, 1e-5f));
+    EXPECT_THAT(positions[0], near_to({10, 0, 0}));
+    EXPECT_THAT(positions[1], near_to({1, 100, 0}));
+    EXPECT_THAT(positions[2], near_to({2, 81, 0}, 1e-5f));
 }
 
 TEST(Skin, JointsOutOfRangeAreAnErrorUnlessWeightless) {
@@ -130,9 +130,9 @@ TEST(Skin, SkinsOfOneMeshDiffer) {
     gltf.add("nodes", {{"mesh", 0}});
     const Scene scene = gltf.load();
     const std::vector<glm::vec3> positions = positions_at(scene, 0);
-    EXPECT_THAT(positions[0], Near({10, 0, 0}));
-    EXPECT_THAT(positions[3], Near({0, 100, 0}));
-    EXPECT_THAT(positions[6], Near({0, 0, 0}));  // Without a skin the joints play no part.
+    EXPECT_THAT(positions[0], near_to({10, 0, 0}));
+    EXPECT_THAT(positions[3], near_to({0, 100, 0}));
+    EXPECT_THAT(positions[6], near_to({0, 0, 0}));  // Without a skin the joints play no part.
     EXPECT_EQ(pose_at(scene, 0).palette.size(), 3u * 5u);
 }
 
@@ -143,8 +143,8 @@ TEST(Skin, PrimitivesWithoutJointsFollowTheirNode) {
     attributes.erase("WEIGHTS_0");
     attributes.erase("JOINTS_0");
     const Scene scene = gltf.load();
-    EXPECT_THAT(positions_at(scene, 0)[0], Near({-7, -7, -7}));
-    EXPECT_THAT(scene.warnings, HasWarning("1 skinned primitives have no joints"));
+    EXPECT_THAT(positions_at(scene, 0)[0], near_to({-7, -7, -7}));
+    EXPECT_THAT(scene.warnings, has_warning("1 skinned primitives have no joints"));
 }
 
 }  // namespace
