@@ -15,7 +15,7 @@ struct RangeRecord {
     float nearest = 0.0f;
     uint32_t entry = 0;
 
-    auto operator<=>(const RangeRecord&) const = default;
+    auto operator<=>(const RangeRecord&) const = default;  // NOLINT(modernize-use-nullptr): the check takes it for a 0
 };
 
 /// The ranges of a band that is filled, per list (item * kTileTexels + row * 8 + column), items counted from the band's first;

@@ -101,7 +101,7 @@ TEST_F(BufferTest, LargerThanTheDeviceAllows) {
 TEST_F(BufferTest, MovesItsMemory) {
     Buffer from = upload_new(device, "moved", iota(4));
     Buffer to = std::move(from);
-    EXPECT_FALSE(from);
+    EXPECT_FALSE(from);  // NOLINT(bugprone-use-after-move): what it then is
     EXPECT_EQ(download_vector<uint32_t>(device, to, 4), iota(4));
     Buffer replaced = device.allocate("replaced", 64);
     replaced = std::move(to);

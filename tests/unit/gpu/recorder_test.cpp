@@ -24,7 +24,7 @@ protected:
     }
 
     void expect_rejected(const std::vector<Binding>& bindings, std::vector<std::string> parts) {
-        parts.push_back("test/scale");
+        parts.emplace_back("test/scale");
         expect_error(ErrorKind::internal, parts, [&] { dispatch(bindings); });
     }
 
