@@ -10,26 +10,37 @@
 
 namespace gnomon::tools {
 
-/// Parse the command line, then run(). Errors become one line on stderr and their kind's exit code; out_of_memory says what to
-/// do when the host has no more memory.
-template <class Run>
-int tool_main(CLI::App& app, int argc, char** argv, const std::string& out_of_memory, Run run) {
+struct Tool {
+    const char* name;
+    const char* description;
+    const char* out_of_memory;  ///< What to do when the host has no more memory.
+};
+
+/// Parse the command line into Options, with add_options(app, options), then run(options). Errors become one line on stderr and
+/// their kind's exit code.
+template <class Options, class Run>
+int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::App&, Options&), Run run) {
     const auto fail = [&](const std::string& message, ErrorKind kind) {
-        std::cerr << app.get_name() << ": error: " << message << '\n';
+        std::cerr << tool.name << ": error: " << message << '\n';
         return static_cast<int>(kind);
     };
     try {
-        app.parse(argc, argv);
-        run();
+        CLI::App app(tool.description, tool.name);
+        Options options;
+        add_options(app, options);
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::Success& request) {  // --help or --version
+            return app.exit(request);
+        }
+        run(options);
         return 0;
-    } catch (const CLI::Success& request) {  // --help or --version
-        return app.exit(request);
     } catch (const CLI::ParseError& error) {
-        return fail(std::string(error.what()) + ", command line; see '" + app.get_name() + " --help'", ErrorKind::usage);
+        return fail(std::string(error.what()) + ", command line; see '" + tool.name + " --help'", ErrorKind::usage);
     } catch (const Error& error) {
         return fail(error.what(), error.kind());
     } catch (const std::bad_alloc&) {
-        return fail("out of memory, on the host; " + out_of_memory, ErrorKind::out_of_memory);
+        return fail(std::string("out of memory, on the host; ") + tool.out_of_memory, ErrorKind::out_of_memory);
     } catch (const std::exception& error) {
         return fail(std::string("internal error: ") + error.what(), ErrorKind::internal);
     }

@@ -106,8 +106,7 @@ void run(const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Times whole frames of gnomon and of the Embree reference in turn.", "frame_bench");
-    Options options;
-    add_options(app, options);
-    return tools::tool_main(app, argc, argv, "use a smaller --scale or fewer --spp", [&] { run(options); });
+    constexpr tools::Tool kTool{"frame_bench", "Times whole frames of gnomon and of the Embree reference in turn.",
+                                "use a smaller --scale or fewer --spp"};
+    return tools::tool_main(kTool, argc, argv, add_options, run);
 }

@@ -13,10 +13,10 @@
 namespace gnomon::cli {
 
 std::string progress_text(double share, double seconds, double total_samples) {
-    constexpr int cells = 24;
+    constexpr int kCells = 24;
     share = std::clamp(share, 0.0, 1.0);
-    const int full = static_cast<int>(share * cells);
-    std::string text = fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %", "", full, "", cells - full, std::floor(share * 100.0));
+    const int full = static_cast<int>(share * kCells);
+    std::string text = fmt::format("[{:#<{}}{:.<{}}] {:3.0f} %", "", full, "", kCells - full, std::floor(share * 100.0));
     if (share > 0.0 && seconds > 0.0) {
         const auto left = static_cast<long>(std::ceil(seconds * (1.0 - share) / share));
         text += fmt::format("  {:.3g} Msamples/s", share * total_samples / seconds * 1e-6);

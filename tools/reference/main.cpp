@@ -132,8 +132,8 @@ void run(Options options) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Traces a motion-blurred frame with Embree, for gnomon's frames to be compared with.", "reference");
-    Options options;
-    add_options(app, options);
-    return tools::tool_main(app, argc, argv, "trace a smaller image or a smaller scene", [&] { run(options); });
+    constexpr tools::Tool kTool{"reference",
+                                "Traces a motion-blurred frame with Embree, for gnomon's frames to be compared with.",
+                                "trace a smaller image or a smaller scene"};
+    return tools::tool_main(kTool, argc, argv, add_options, run);
 }

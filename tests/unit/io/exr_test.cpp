@@ -28,9 +28,9 @@ std::vector<uint32_t> bits_of(const std::vector<float>& values) {
 }
 
 std::vector<Channel> some_channels() {
-    constexpr float infinity = std::numeric_limits<float>::infinity();
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
     return {{"R", {0.0f, -0.0f, 1.0f, 1.0f / 3.0f, 1e-45f, 3e38f}},
-            {"Z", {infinity, -infinity, std::bit_cast<float>(0x7fc01234u), 1e-38f, -2.5f, 16777217.0f}},
+            {"Z", {kInfinity, -kInfinity, std::bit_cast<float>(0x7fc01234u), 1e-38f, -2.5f, 16777217.0f}},
             {"visibility_var.a_light_with_a_name_longer_than_31_characters", {1, 2, 3, 4, 5, 6}}};
 }
 

@@ -8,7 +8,6 @@
 
 namespace gnomon::test {
 
-using cli::FrameJob;
 using cli::RenderOptions;
 
 namespace {
