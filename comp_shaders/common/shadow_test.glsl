@@ -27,10 +27,6 @@ layout(push_constant, scalar) uniform Push { ShadowParams params; };
 #include "common/triangle.glsl"
 #include "common/batch.glsl"
 #include "common/receiver.glsl"
-uint range_base() { return params.range_first; }
-#define ListIterator uvec2
-#define LAYOUT_READ
-#include "layout.glsl"
 
 vec4 light_vertex_at(uint vertex, Receiver h) {
     int i = int(h.segment * params.camera.vertex_stride + vertex);
@@ -59,6 +55,8 @@ struct ShadowTest {
     uint own;           // The hit's triangle, which does not occlude it.
     Receiver receiver;
     vec2 at;            // Raster space of the light's view.
+    uvec2 texel;
+    float depth;        // In the light's view, z / w.
     float limit;        // Depth from which on nothing occludes: the hit's, less the tolerance along its normal.
     uint list;          // Of its texel and cell of time.
     bool here;          // There is such a hit, the light may reach it, and its list is in memory.
@@ -82,6 +80,7 @@ ShadowTest shadow_test(uint i) {
     test.receiver = h;
     test.at = p.xy / p.w;
     float depth = p.z / p.w;
+    test.depth = depth;
 
     // In the light's own space, metres: the angle between ray and surface turns the tolerance along the normal into one in depth.
     vec2 scale = 1.0 / vec2(params.scale_x, params.scale_y);
@@ -100,7 +99,9 @@ ShadowTest shadow_test(uint i) {
 
     uint tx = uint(clamp(floor(test.at.x + 0.5 * float(params.light_width)), 0.0, float(params.light_width - 1u)));
     uint ty = uint(clamp(floor(test.at.y + 0.5 * float(params.light_height)), 0.0, float(params.light_height - 1u)));
-    uint item = ((ty / kTileSize) * params.light_tiles_x + tx / kTileSize) * params.light_cell_count + cell_of(h.t, params.light_cell_count);
+    test.texel = uvec2(tx, ty);
+    uint tile = (ty / kTileSize) * params.light_tiles_x + tx / kTileSize;
+    uint item = tile * params.light_tile_stride + cell_of(h.t, params.light_cell_count) * params.light_cell_stride;
     test.here = inside && in_cone && item >= params.item_first && item < params.item_first + params.item_count;
     test.list = item * kTileTexels + (ty & 7u) * kTileSize + (tx & 7u);
     return test;

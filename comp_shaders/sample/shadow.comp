@@ -7,6 +7,7 @@
 // Source:  math/cover.h; a hit triangle does not occlude itself, and nothing within a tolerance along its normal does (occlusion_tolerance)
 #extension GL_GOOGLE_include_directive : require
 #include "common/shadow_test.glsl"
+#include "common/list.glsl"
 #include "common/candidates.glsl"
 
 // Does the triangle of a range cover (x, y) at the hit's time, nearer than `limit`?

@@ -10,6 +10,8 @@ const uint kTileSize = 8u;
 const uint kTileTexels = 64u;
 // Items (a tile in a cell of time) whose ranges are counted together; bands of the S-buffer consist of whole blocks.
 const uint kCountBlock = 128u;
+// Depth where nothing is.
+const float kFarthest = 3.4e38f;
 // No triangle.
 const uint kNone = 0xffffffffu;
 // Set in a list's entry: the triangle with its orientation reversed (vertices 1 and 2 swapped).
@@ -96,6 +98,14 @@ struct TraceParams {
     float depth_far;
 };
 
+struct MapDepthParams {
+    ViewGrid grid;
+    uint stratum;
+    uint spp;
+    uint seed;
+    uint element_first;  // Where the stratum's samples go.
+};
+
 struct CompactParams {
     uint run_count;  // Runs of kScanRun samples.
 };
@@ -113,6 +123,8 @@ struct ShadowParams {
     uint light_height;
     uint light_tiles_x;
     uint light_cell_count;
+    uint light_tile_stride;  // Item of tile and cell: tile * light_tile_stride + cell * light_cell_stride.
+    uint light_cell_stride;
     float scale_x;  // Raster units per metre (orthographic), or per unit slope (perspective).
     float scale_y;
     float cone_tan2;   // Squared tangent of a spot's outer half angle.

@@ -22,9 +22,11 @@ struct RenderSettings {
     std::string method = "exact";
     std::string layout = "array";  ///< A registered layout, or a folder that holds one.
     std::string raster = "auto";   ///< How ranges are found: analytic, conservative, or auto: what the method is made for.
-    uint64_t memory_budget = 0;    ///< Most bytes of device memory; 0: half the device's heap.
-    bool keep_samples = false;     ///< Fill Frame::samples.
-    bool count_ranges = false;     ///< Count the ranges that the shadow tests look at and test; costs some percent.
+    std::map<std::string, double> parameters =
+        {};                      ///< Of the method, by name (`gnomon methods`); others have their initial values.
+    uint64_t memory_budget = 0;  ///< Most bytes of device memory; 0: half the device's heap.
+    bool keep_samples = false;   ///< Fill Frame::samples.
+    bool count_ranges = false;   ///< Count the ranges that the shadow tests look at and test; costs some percent.
 };
 
 /// What one camera sample found. Index (y * width + x) * spp + s in Frame::samples.

@@ -2,7 +2,13 @@
 #include "methods/method.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <gnomon/error.hpp>
+#include <sstream>
+
+#include "methods/tsm.hpp"
+#include "pipeline/memory_plan.hpp"
+#include "stages/raster.hpp"
 
 namespace gnomon {
 namespace {
@@ -13,7 +19,39 @@ std::string join(const std::vector<std::string>& words) {
     return text;
 }
 
+// A range lasts as long as its triangle stays.
+uint32_t segment_cells(const LightContext& light) { return light.geometry.segment_count; }
+
+// Ranges may be cut where a cell ends: whatever is fast.
+uint32_t finer_cells(const LightContext& light) { return light_cells(light.geometry.segment_count, light.still); }
+
+// A map is sampled as the camera's image is.
+uint32_t map_cells(const LightContext& light) {
+    return camera_cells(map_spp(light), light.geometry.segment_count, light.still);
+}
+
+std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
+    return std::make_unique<SBuffer>(light.device, light.programs, light.geometry, bins, light.layout, "raster/" + light.raster,
+                                     light.view.orthographic);
+}
+
+template <bool kMotion>
+std::unique_ptr<ShadowMap> make_tsm(const LightContext& light, const Bins& bins) {
+    return std::make_unique<TimeDependentMap>(light, bins, kMotion);
+}
+
+std::string number(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
 }  // namespace
+
+std::optional<double> LightContext::parameter(const std::string& name) const {
+    const auto found = settings.parameters.find(name);
+    return found == settings.parameters.end() ? std::nullopt : std::optional<double>(found->second);
+}
 
 const std::vector<Method>& methods() {
     static const std::vector<Method> all = {
@@ -21,15 +59,31 @@ const std::vector<Method>& methods() {
          .summary = "conservative ranges; their triangles are tested at the hit's own place and time",
          .source = "",
          .rasters = {"conservative"},
-         .shadow_stage = "sample/shadow"},
+         .shadow_stage = "sample/shadow",
+         .light_cells = finer_cells,
+         .make_map = make_s_buffer},
         {.name = "dtr-analytic",
          .summary = "ranges at the texels' centres; depth is linear between entry and exit",
          .source = "Hong and Oh 2018, 3.3, with analytic ranges",
          .rasters = {"analytic"},
          .shadow_stage = "methods/dtr_analytic/shadow",
-         .light_cells = Method::LightCells::segments,
-         .ranges_per_prism = 4,
-         .exit_depth = true},
+         .exit_depth = true,
+         .light_cells = segment_cells,
+         .make_map = make_s_buffer},
+        {.name = "tsm",
+         .summary = "a time-dependent shadow map: one depth per texel and stratum of time, constant bias",
+         .source = "Akenine-Moller et al. 2007, 5",
+         .shadow_stage = "methods/tsm/shadow",
+         .parameters = tsm_parameters(),
+         .light_cells = map_cells,
+         .make_map = make_tsm<false>},
+        {.name = "tsm-dynamic-bias",
+         .summary = "tsm, its depths moved to the hit's time",
+         .source = "Andersson et al. 2015, 5.1, eq. 12",
+         .shadow_stage = "methods/tsm/shadow",
+         .parameters = tsm_parameters(),
+         .light_cells = map_cells,
+         .make_map = make_tsm<true>},
     };
     return all;
 }
@@ -44,10 +98,34 @@ const Method& find_method(const std::string& name) {
 }
 
 std::string choose_raster(const Method& method, const std::string& option) {
+    if (!method.has_s_buffer()) {
+        if (option == "auto") return "";
+        throw Error(ErrorKind::usage, "method " + method.name + " has no ranges", "--raster", "leave it out");
+    }
     if (option == "auto") return method.rasters.front();
     if (std::find(method.rasters.begin(), method.rasters.end(), option) != method.rasters.end()) return option;
     throw Error(ErrorKind::usage, "method " + method.name + " cannot use the ranges of raster '" + option + "'", "--raster",
                 "use auto or " + join(method.rasters));
+}
+
+void check_parameters(const Method& method, const std::map<std::string, double>& parameters) {
+    for (const auto& [name, value] : parameters) {
+        std::vector<std::string> known;
+        const Parameter* found = nullptr;
+        for (const Parameter& parameter : method.parameters) {
+            if (parameter.name == name) found = &parameter;
+            known.push_back("--" + parameter.name);
+        }
+        if (found == nullptr) {
+            throw Error(ErrorKind::usage, "method " + method.name + " has no parameter '" + name + "'", "--" + name,
+                        known.empty() ? "it has none" : "it has " + join(known));
+        }
+        if (!(value >= found->least && value <= found->most) || (found->whole && value != std::floor(value))) {
+            throw Error(ErrorKind::usage, name + " is " + number(value), "--" + name,
+                        std::string("use ") + (found->whole ? "a whole number " : "") + "from " + number(found->least) +
+                            " to " + number(found->most) + " " + found->unit);
+        }
+    }
 }
 
 }  // namespace gnomon

@@ -2,27 +2,66 @@
 // Methods: named ways to answer "does the light reach this hit?". They share everything but the light's side.
 #pragma once
 
-#include <cstdint>
+#include <functional>
+#include <gnomon/render.hpp>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "layouts/layout.hpp"
+#include "pipeline/view.hpp"
+#include "stages/bin.hpp"
+#include "stages/shadow_map.hpp"
+
 namespace gnomon {
 
-struct Method {
-    /// How many cells of time a light's S-buffer has.
-    enum class LightCells {
-        segments,  ///< One per segment: a range lasts as long as its triangle stays.
-        finer,     ///< Whatever is fast: ranges may be cut where a cell ends.
-    };
+/// A number that a method can be given: RenderSettings::parameters[name].
+struct Parameter {
+    std::string name;
+    std::string unit;
+    std::string summary;
+    std::string initial;  ///< What is taken when it is not given.
+    double least = 0.0;
+    double most = 0.0;
+    bool whole = false;  ///< Only whole numbers.
+};
 
+struct Method;
+
+/// A light of a frame, for its shadow map to be made.
+struct LightContext {
+    gpu::Device& device;
+    Programs& programs;
+    const Geometry& geometry;
+    const RenderSettings& settings;
+    const Method& method;
+    const View& view;  ///< The light's.
+    const Bounds& bounds;
+    uint32_t light_ix = 0;
+    bool still = false;  ///< Nothing moves.
+    Layout layout;       ///< Of the S-buffer, where the method has one; likewise the stage that finds its ranges.
+    std::string raster;
+
+    std::optional<double> parameter(const std::string& name) const;
+};
+
+struct Method {
     std::string name;
     std::string summary;
-    std::string source;                ///< Paper and section.
-    std::vector<std::string> rasters;  ///< Stages raster/<name> whose ranges the test understands; the first is the default.
-    std::string shadow_stage;          ///< The test, compiled for each layout.
-    LightCells light_cells = LightCells::finer;
-    uint32_t ranges_per_prism = 1;  ///< Most that one prism has in one list.
-    bool exit_depth = false;        ///< A range has a depth at its exit.
+    std::string source;  ///< Paper and section.
+    std::vector<std::string> rasters =
+        {};  ///< Stages raster/<name> whose ranges the test understands, the default first; none: no S-buffer.
+    std::string shadow_stage;  ///< The test; compiled for each layout where there is an S-buffer.
+    bool exit_depth = false;   ///< A range has a depth at its exit.
+    std::vector<Parameter> parameters = {};
+
+    /// In how many cells of time the light's prisms are listed.
+    std::function<uint32_t(const LightContext&)> light_cells;
+    /// The context and the bins outlive the map.
+    std::function<std::unique_ptr<ShadowMap>(const LightContext&, const Bins&)> make_map;
+
+    bool has_s_buffer() const { return !rasters.empty(); }
 };
 
 /// All methods, the default first.
@@ -33,5 +72,8 @@ const Method& find_method(const std::string& name);
 
 /// The stage raster/<name> that `option` ("auto" or a name) asks for. Errors: ErrorKind::usage, naming what the method can use.
 std::string choose_raster(const Method& method, const std::string& option);
+
+/// Errors: ErrorKind::usage, for a parameter that the method does not have, or out of its range.
+void check_parameters(const Method& method, const std::map<std::string, double>& parameters);
 
 }  // namespace gnomon

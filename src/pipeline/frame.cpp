@@ -7,6 +7,7 @@
 #include <gnomon/render.hpp>
 
 #include "layouts/compile_layout.hpp"
+#include "methods/method.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "pipeline/view.hpp"
 #include "shared/film.h"
@@ -116,6 +117,19 @@ void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, cons
     }
 }
 
+// Against each band of the light's map that the batch's samples fall into.
+void test_shadows(Sampler& sampler, LightSide& side, const Batch& batch, uint32_t spp, float tolerance) {
+    const double open = static_cast<double>(batch.stratum_first) / spp;
+    const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / spp;
+    for (size_t i = 0; i < side.bands.size(); ++i) {
+        const Band& band = side.bands[i];
+        if (band.t_close <= open || band.t_open >= close) continue;
+        if (side.filled != i) side.map->fill(band);
+        side.filled = i;
+        sampler.test_shadows(side, band, tolerance);
+    }
+}
+
 FrameStats statistics(const gpu::Device& device) {
     FrameStats stats;
     for (const gpu::StageTime& t : device.stage_times()) stats.stages.push_back({t.name, t.seconds, t.dispatches});
@@ -141,9 +155,10 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     gpu::Device& device = impl_->device;
     Programs& programs = impl_->programs;
     const Method& method = find_method(settings.method);
+    check_parameters(method, settings.parameters);
     const std::string raster = choose_raster(method, settings.raster);
     const Layout layout = with_ranges(find_layout(settings.layout), method.exit_depth);
-    if (!layout.folder.empty()) {
+    if (method.has_s_buffer() && !layout.folder.empty()) {
         for (const std::string& stage : {"raster/" + raster, method.shadow_stage})
             programs.add(layout.stage(stage), compile_stage(stage, layout));
     }
@@ -155,7 +170,8 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     frame.width = settings.width;
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
-    frame.effective = {{"method", method.name}, {"raster", raster}, {"layout", layout.name}};
+    frame.effective = {{"method", method.name}};
+    if (method.has_s_buffer()) frame.effective.insert({{"raster", raster}, {"layout", layout.name}});
 
     // The scene, posed.
     Bounds bounds = bounds_of(scene, poses);
@@ -167,7 +183,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     Bins bins =
         bin_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, is_still(poses)));
 
-    // Each light's prisms, and how many ranges they have.
+    // Each light's prisms, and what its shadow tests read.
     std::vector<LightSide> sides;
     for (uint32_t i = 0; i < frame.light_count; ++i) {
         if (scene.lights[i].kind == LightKind::point) continue;
@@ -176,22 +192,27 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         side.view = light_view(scene.lights[i], poses, i, bounds, settings.shadow_res);
         sides.push_back(std::move(side));
     }
-    for (LightSide& side : sides) {
-        side.bins = bin_prisms(device, programs, geometry, side.view,
-                               light_cells(method.light_cells, geometry.segment_count, is_still(poses)));
-        side.longest = uint64_t(side.bins.longest) * method.ranges_per_prism;
-        side.s_buffer = std::make_unique<SBuffer>(device, programs, geometry, side.bins, layout, "raster/" + raster,
-                                                  side.view.orthographic);
-        frame.stats.counts["bin_entries." + std::to_string(side.light_ix)] = side.bins.entry_count;
-        frame.stats.counts["ranges." + std::to_string(side.light_ix)] = side.s_buffer->range_count();
+    std::vector<LightContext> contexts;
+    for (const LightSide& side : sides) {
+        contexts.push_back(
+            {device, programs, geometry, settings, method, side.view, bounds, side.light_ix, is_still(poses), layout, raster});
+    }
+    for (size_t i = 0; i < sides.size(); ++i) {
+        LightSide& side = sides[i];
+        side.bins = bin_prisms(device, programs, geometry, side.view, method.light_cells(contexts[i]));
+        side.map = method.make_map(contexts[i], side.bins);
+        const std::string light = "." + std::to_string(side.light_ix);
+        frame.stats.counts["bin_entries" + light] = side.bins.entry_count;
+        for (const auto& [name, count] : side.map->counts()) frame.stats.counts[name + light] = count;
         frame.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
+        for (const auto& [name, value] : side.map->effective()) frame.effective[name] = value;
     }
 
     // The samples, a batch at a time. An S-buffer that fits is filled once, else in bands for every batch.
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget);
     Sampler sampler(device, programs, geometry, view, bins,
-                    {.shadow_stage = layout.stage(method.shadow_stage),
+                    {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
                      .seed = settings.seed,
                      .light_count = frame.light_count,
@@ -199,20 +220,18 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
     uint64_t left = budget - std::min(budget, device.live_bytes());
+    uint32_t most_strata = settings.spp;
     for (LightSide& side : sides) {
-        side.bands = side.s_buffer->bands(left / sides.size());
-        if (side.bands.size() == 1) side.s_buffer->fill(side.bands[0]);
+        side.bands = side.map->bands(left / sides.size());
+        // Where a map is cut in time, so are the samples, so that it is filled once.
+        const double longest = side.bands[0].t_close - side.bands[0].t_open;
+        most_strata = std::min(most_strata, static_cast<uint32_t>(std::max(1.0, std::floor(longest * settings.spp))));
     }
-    std::vector<Batch> batches = split_batches(bins.grid, settings.spp, most_slots);
+    std::vector<Batch> batches = split_batches(bins.grid, settings.spp, most_slots, most_strata);
     for (size_t b = 0; b < batches.size(); ++b) {
         if (progress && !progress(static_cast<double>(b) / static_cast<double>(batches.size()))) break;
         sampler.trace(batches[b]);
-        for (LightSide& side : sides) {
-            for (const Band& band : side.bands) {
-                if (side.bands.size() > 1) side.s_buffer->fill(band);
-                sampler.test_shadows(side, band, least_tolerance(bounds));
-            }
-        }
+        for (LightSide& side : sides) test_shadows(sampler, side, batches[b], settings.spp, least_tolerance(bounds));
         sampler.shade(lights, !lights_still(poses));
         if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp);
     }

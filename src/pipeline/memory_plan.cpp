@@ -47,8 +47,8 @@ uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still) {
     return std::max(1u, kFewestCells / segments) * segments;
 }
 
-uint32_t light_cells(Method::LightCells rule, uint32_t segments, bool still) {
-    if (still || rule == Method::LightCells::segments) return segments;
+uint32_t light_cells(uint32_t segments, bool still) {
+    if (still) return segments;
     return std::max(1u, kLightCells / segments) * segments;
 }
 
@@ -59,14 +59,14 @@ uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, ui
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }
 
-std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uint64_t most_slots) {
+std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uint64_t most_slots, uint32_t most_strata) {
     uint64_t items = most_slots / shared::kTileTexels;
-    uint32_t strata = static_cast<uint32_t>(std::min<uint64_t>({spp, items, kMostStrata}));
+    uint32_t strata = static_cast<uint32_t>(std::min<uint64_t>({spp, items, kMostStrata, most_strata}));
     uint32_t tiles = grid.tiles_x * grid.tiles_y;
     uint32_t tile_step = static_cast<uint32_t>(std::min<uint64_t>(tiles, items / strata));
     std::vector<Batch> batches;
-    for (uint32_t tile = 0; tile < tiles; tile += tile_step) {
-        for (uint32_t s = 0; s < spp; s += strata)
+    for (uint32_t s = 0; s < spp; s += strata) {
+        for (uint32_t tile = 0; tile < tiles; tile += tile_step)
             batches.push_back({tile, std::min(tile_step, tiles - tile), s, std::min(strata, spp - s)});
     }
     return batches;

@@ -5,7 +5,6 @@
 #include <gnomon/scene.hpp>
 #include <vector>
 
-#include "methods/method.hpp"
 #include "stages/sample.hpp"
 
 namespace gnomon {
@@ -20,13 +19,13 @@ bool lights_still(const std::vector<Pose>& poses);
 /// each stratum lies in one cell.
 uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);
 
-/// Cells of time of a light's S-buffer.
-uint32_t light_cells(Method::LightCells rule, uint32_t segments, bool still);
+/// Cells of time of a light's S-buffer whose ranges may be cut where a cell ends.
+uint32_t light_cells(uint32_t segments, bool still);
 
 /// Most slots of one batch, so that its buffers fit into the budget and into one binding.
 uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget);
 
-/// Batches that cover every tile and stratum once; for each tile the strata in order.
-std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uint64_t most_slots);
+/// Batches that cover every tile and stratum once, of at most `most_strata` strata; for each tile the strata in order.
+std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uint64_t most_slots, uint32_t most_strata = ~0u);
 
 }  // namespace gnomon

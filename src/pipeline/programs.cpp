@@ -21,8 +21,8 @@ void Programs::add(const std::string& name, std::vector<uint32_t> spirv) {
     std::erase_if(programs_, [&](const auto& program) { return program.first.first == name; });
 }
 
-const gpu::Program& Programs::get(const std::string& name, std::initializer_list<uint32_t> constants) {
-    auto key = std::make_pair(name, std::vector<uint32_t>(constants));
+const gpu::Program& Programs::get(const std::string& name, const std::vector<uint32_t>& constants) {
+    auto key = std::make_pair(name, constants);
     auto found = programs_.find(key);
     if (found == programs_.end()) {
         std::vector<gpu::Constant> values;

@@ -2,7 +2,6 @@
 // The compiled stages, by name, made on first use.
 #pragma once
 
-#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,7 +23,7 @@ public:
 
     /// The stage specialised with constant_id 0, 1, ... = constants. Valid as long as this object, or until the stage is added
     /// anew.
-    const gpu::Program& get(const std::string& name, std::initializer_list<uint32_t> constants = {});
+    const gpu::Program& get(const std::string& name, const std::vector<uint32_t>& constants = {});
 
 private:
     gpu::Device& device_;

@@ -8,8 +8,6 @@
 namespace gnomon {
 namespace {
 
-constexpr float kFarthest = 3.4e38f;
-
 struct Axes {
     glm::dvec3 right, up, back;
 };
@@ -57,8 +55,8 @@ View directional_view(const std::vector<Pose>& poses, uint32_t light_ix, const B
     View view;
     view.width = view.height = resolution;
     view.orthographic = true;
-    view.depth_near = -kFarthest;
-    view.depth_far = kFarthest;
+    view.depth_near = -shared::kFarthest;
+    view.depth_far = shared::kFarthest;
     // A little wider than the bounds, whose corners are rounded; never empty, for a flat scene seen from its side.
     glm::dvec2 half = 0.5 * (high - low) * (1.0 + 1e-5) + 1e-6 * (glm::length(upper - lower) + 1e-30);
     glm::dvec2 scale = 0.5 * resolution / half;
@@ -101,7 +99,7 @@ View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t 
     view.scale_x = view.scale_y = static_cast<float>(scale);
     if (view.orthographic) {
         view.depth_near = static_cast<float>(camera.znear);
-        view.depth_far = camera.zfar > 0.0 ? static_cast<float>(camera.zfar) : kFarthest;
+        view.depth_far = camera.zfar > 0.0 ? static_cast<float>(camera.zfar) : shared::kFarthest;
     } else {
         view.depth_near = static_cast<float>(-1.0 / camera.znear);
         view.depth_far = camera.zfar > 0.0 ? static_cast<float>(-1.0 / camera.zfar) : 0.0f;

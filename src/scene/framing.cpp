@@ -89,8 +89,8 @@ void add_default_camera(Scene& scene, std::vector<Pose>& poses, const Bounds& bo
     scene.cameras.push_back(camera);
     for (Pose& pose : poses) pose.cameras.push_back(place);
     change_rig(scene, [&](Rig& rig) { rig.cameras.push_back({Rig::kNoNode, place}); });
-    scene.warnings.emplace_back("the scene has no camera: one that frames it was added at (" + fixed3(place.translation.x) + ", " +
-                             fixed3(place.translation.y) + ", " + fixed3(place.translation.z) + ")");
+    scene.warnings.emplace_back("the scene has no camera: one that frames it was added at (" + fixed3(place.translation.x) +
+                                ", " + fixed3(place.translation.y) + ", " + fixed3(place.translation.z) + ")");
 }
 
 void add_default_light(Scene& scene, std::vector<Pose>& poses) {

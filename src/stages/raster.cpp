@@ -15,10 +15,14 @@ using gpu::Texel;
 // Ranges in memory start at a multiple of this, which keeps every binding aligned whatever the size of its elements.
 constexpr uint64_t kRangeAlign = 64;
 
-// Items that one workgroup of a raster stage handles.
-uint32_t items_per_group(const std::string& raster) {
-    if (raster == "raster/conservative") return 8;
-    if (raster == "raster/analytic") return 1;
+struct RasterStage {
+    uint32_t items_per_group;   // Of one workgroup.
+    uint32_t ranges_per_prism;  // Most in one list.
+};
+
+RasterStage raster_stage(const std::string& raster) {
+    if (raster == "raster/conservative") return {8, 1};
+    if (raster == "raster/analytic") return {1, 4};
     throw Error(ErrorKind::internal, "no such raster stage", raster, "report this as a bug");
 }
 
@@ -34,7 +38,8 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, const Geometry& geomet
       bins_(bins),
       layout_(layout),
       raster_(layout.stage(raster)),
-      items_per_group_(items_per_group(raster)),
+      items_per_group_(raster_stage(raster).items_per_group),
+      longest_(uint64_t(bins.longest) * raster_stage(raster).ranges_per_prism),
       orthographic_(orthographic) {
     item_count_ = bins.grid.tiles_x * bins.grid.tiles_y * bins.grid.cell_count;
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;

@@ -4,18 +4,11 @@
 
 #include "layouts/layout.hpp"
 #include "stages/bin.hpp"
+#include "stages/shadow_map.hpp"
 
 namespace gnomon {
 
-/// A run of items (a tile in a cell of time) and the ranges of their texels.
-struct Band {
-    uint32_t item_first = 0;
-    uint32_t item_count = 0;
-    uint64_t range_first = 0;
-    uint64_t range_count = 0;
-};
-
-class SBuffer {
+class SBuffer final : public ShadowMap {
 public:
     /// Count the ranges of all lists. raster: the stage that finds them ("raster/conservative").
     /// Errors: ErrorKind::out_of_memory where one block of tiles alone is too much for the device.
@@ -23,19 +16,17 @@ public:
             const std::string& raster, bool orthographic);
 
     uint64_t range_count() const { return range_count_; }
-    uint32_t item_count() const { return item_count_; }
     uint64_t list_count() const { return list_count_; }
 
-    /// Bands whose ranges take at most `bytes` each; one, if all of them do. Errors: ErrorKind::out_of_memory, saying how much
-    /// a single block needs.
-    std::vector<Band> bands(uint64_t bytes) const;
-
-    /// Fill the ranges of a band; those of the band before are forgotten.
-    void fill(const Band& band);
-
-    /// What sample/shadow reads, and the number of the range that its memory starts with.
-    std::vector<gpu::Binding> read_bindings() const;
-    uint32_t range_base() const { return range_base_; }
+    ItemOrder order() const override { return {bins_.grid.cell_count, bins_.grid.cell_count, 1}; }
+    uint32_t item_count() const override { return item_count_; }
+    uint64_t longest() const override { return longest_; }
+    std::map<std::string, uint64_t> counts() const override { return {{"ranges", range_count_}}; }
+    /// As ShadowMap's; errors say how much a single block of items needs.
+    std::vector<Band> bands(uint64_t bytes) const override;
+    void fill(const Band& band) override;
+    std::vector<gpu::Binding> read_bindings() const override;
+    uint32_t range_base() const override { return range_base_; }
 
 private:
     struct Memory {
@@ -55,6 +46,7 @@ private:
     Layout layout_;
     std::string raster_;
     uint32_t items_per_group_;
+    uint64_t longest_;
     bool orthographic_;
     uint32_t item_count_ = 0;
     uint64_t list_count_ = 0;

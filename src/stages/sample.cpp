@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "shared/film.h"
-#include "shared/slot.h"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
 
@@ -27,15 +26,6 @@ std::vector<float> srgb_table() {
 
 }  // namespace
 
-SlotSample slot_sample(const Batch& batch, const shared::ViewGrid& grid, uint64_t slot) {
-    const auto item = static_cast<uint32_t>(slot / shared::kTileTexels),
-               place = static_cast<uint32_t>(slot % shared::kTileTexels);
-    const uint32_t tile = batch.tile_first + item / batch.stratum_count;
-    return {tile % grid.tiles_x * shared::kTileSize + shared::slot_column(place),
-            tile / grid.tiles_x * shared::kTileSize + shared::slot_row(place),
-            batch.stratum_first + item % batch.stratum_count};
-}
-
 Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
                  const SamplerSettings& settings)
     : device_(device),
@@ -44,10 +34,9 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
       view_(view),
       bins_(bins),
       settings_(settings),
-      straddle_(settings.spp % bins.grid.cell_count != 0) {
+      tracer_(device, programs, geometry, view, bins, "sample/trace", settings.spp, settings.seed, settings.most_slots) {
     const uint64_t most_slots = settings.most_slots;
     uint64_t pixels = uint64_t(bins.grid.width) * bins.grid.height;
-    hits_ = device.allocate("hits", most_slots * 4);
     lit_ = device.allocate("lit", most_slots * 4);
     queue_ = device.allocate("queue", most_slots * 4);
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
@@ -65,30 +54,17 @@ void Sampler::trace(const Batch& batch) {
     batch_ = batch;
     uint32_t run_count = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
     gpu::Recorder recorder(device_);
-    uint32_t chunk = shared::trace_chunk(bins_.grid, settings_.spp);
-    for (uint32_t first = 0; first == 0 || first < bins_.longest; first += chunk) {
-        recorder.fill("sample/trace", ticket_, 0);
-        recorder.dispatch(
-            "sample/trace", programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0}),
-            bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
-                      {"bin_entries", &bins_.entries, Texel::r32_uint},
-                      {"triangles", &geometry_.triangles, Texel::rgba32_uint},
-                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                      {"Hits", &hits_},
-                      {"Ticket", &ticket_}}),
-            shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
-                                settings_.spp, settings_.seed, first, view_.depth_near, view_.depth_far},
-            groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
-    }
+    tracer_.record(recorder, batch);
     lit_written_ = false;
     recorder.fill("sample/compact", runs_, 0);
     recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
-                      bindings({{"hits", &hits_, Texel::rgba32_uint}, {"Runs", &runs_}}), shared::CompactParams{run_count},
-                      groups_of(run_count, 64));
-    Scan scan = record_scan(device_, programs_, recorder, runs_, run_count);
-    recorder.dispatch("sample/compact", programs_.get("sample/compact"),
-                      bindings({{"hits", &hits_, Texel::rgba32_uint}, {"runs", &runs_, Texel::r32_uint}, {"Queue", &queue_}}),
+                      bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"Runs", &runs_}}),
                       shared::CompactParams{run_count}, groups_of(run_count, 64));
+    Scan scan = record_scan(device_, programs_, recorder, runs_, run_count);
+    recorder.dispatch(
+        "sample/compact", programs_.get("sample/compact"),
+        bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"runs", &runs_, Texel::r32_uint}, {"Queue", &queue_}}),
+        shared::CompactParams{run_count}, groups_of(run_count, 64));
     recorder.submit();
     queue_count_ = gpu::download_vector<uint32_t>(device_, runs_, 1, uint64_t(run_count) * 4)[0];
     hit_total_ += queue_count_;
@@ -96,13 +72,13 @@ void Sampler::trace(const Batch& batch) {
 
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
     if (queue_count_ == 0) return;
-    uint32_t parts = static_cast<uint32_t>(groups_of(std::max<uint64_t>(1, light.longest), shared::kListChunk));
+    uint32_t parts = static_cast<uint32_t>(groups_of(std::max<uint64_t>(1, light.map->longest()), shared::kListChunk));
     if (parts > 1 || !iterators_) {
-        uint64_t bytes = parts > 1 ? hits_.bytes() * 2 : 8;
+        uint64_t bytes = parts > 1 ? tracer_.hits().bytes() * 2 : 8;
         if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
     }
     std::vector<gpu::Binding> all = {{"queue", &queue_, Texel::r32_uint},
-                                     {"hits", &hits_, Texel::r32_uint},
+                                     {"hits", &tracer_.hits(), Texel::r32_uint},
                                      {"triangles", &geometry_.triangles, Texel::rgba32_uint},
                                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                      {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
@@ -111,13 +87,18 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                      {"ShadowCounts", &shadow_counts_},
                                      {"Ticket", &ticket_},
                                      {"Iterators", &iterators_}};
-    for (const gpu::Binding& b : light.s_buffer->read_bindings()) all.push_back(b);
+    for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
     // The first pass over the queue writes every hit's word, later ones clear bits in it.
-    bool first = !lit_written_ && parts == 1 && band.item_first == 0 && band.item_count == light.s_buffer->item_count();
+    bool first = !lit_written_ && parts == 1 && band.item_first == 0 && band.item_count == light.map->item_count();
+    const ItemOrder order = light.map->order();
     gpu::Recorder recorder(device_);
     if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, 0xffffffffu);
     lit_written_ = true;
     recorder.fill("sample/shadow", shadow_counts_, 0);
+    std::vector<uint32_t> constants = {light.view.orthographic, view_.orthographic, tracer_.straddle(),
+                                       settings_.count_ranges,  parts > 1,          first};
+    const std::vector<uint32_t> own = light.map->test_constants();
+    constants.insert(constants.end(), own.begin(), own.end());
     for (uint32_t part = 0; part < parts; ++part) {
         shared::ShadowParams params{bins_.grid,
                                     queue_count_,
@@ -130,7 +111,9 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     light.view.width,
                                     light.view.height,
                                     light.bins.grid.tiles_x,
-                                    light.bins.grid.cell_count,
+                                    order.cell_count,
+                                    order.tile_stride,
+                                    order.cell_stride,
                                     light.view.scale_x,
                                     light.view.scale_y,
                                     light.view.cone_tan2,
@@ -138,13 +121,11 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     light.view.depth_near,
                                     band.item_first,
                                     band.item_count,
-                                    light.s_buffer->range_base(),
+                                    light.map->range_base(),
                                     part};
         recorder.fill("sample/shadow", ticket_, 0);
-        recorder.dispatch("sample/shadow",
-                          programs_.get(settings_.shadow_stage, {light.view.orthographic, view_.orthographic, straddle_,
-                                                                 settings_.count_ranges, parts > 1, first}),
-                          all, params, groups_of(queue_count_, 64));
+        recorder.dispatch("sample/shadow", programs_.get(settings_.shadow_stage, constants), all, params,
+                          groups_of(queue_count_, 64));
     }
     recorder.submit();
     if (!settings_.count_ranges) {
@@ -165,9 +146,9 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
     if (!lit_written_) recorder.fill("sample/shade", lit_, 0xffffffffu);
     recorder.dispatch(
         "sample/shade",
-        programs_.get("sample/shade", {view_.orthographic, straddle_, settings_.keep_depths, geometry_.textured,
+        programs_.get("sample/shade", {view_.orthographic, tracer_.straddle(), settings_.keep_depths, geometry_.textured,
                                        geometry_.smooth, lights_move}),
-        bindings({{"hits", &hits_, Texel::r32_uint},
+        bindings({{"hits", &tracer_.hits(), Texel::r32_uint},
                   {"lit", &lit_, Texel::r32_uint},
                   {"triangles", &geometry_.triangles, Texel::rgba32_uint},
                   {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
@@ -192,7 +173,7 @@ std::vector<float> Sampler::film() const {
 }
 
 std::vector<uint32_t> Sampler::batch_hits() const {
-    return gpu::download_vector<uint32_t>(device_, hits_, batch_.slot_count());
+    return gpu::download_vector<uint32_t>(device_, tracer_.hits(), batch_.slot_count());
 }
 std::vector<uint32_t> Sampler::batch_lit() const { return gpu::download_vector<uint32_t>(device_, lit_, batch_.slot_count()); }
 std::vector<float> Sampler::batch_depths() const {

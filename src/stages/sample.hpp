@@ -3,35 +3,18 @@
 #pragma once
 
 #include "stages/raster.hpp"
+#include "stages/trace.hpp"
 
 namespace gnomon {
-
-/// A rectangle of work: tiles [tile_first, tile_first + tile_count) and strata [stratum_first, ...) of each of their pixels.
-struct Batch {
-    uint32_t tile_first = 0;
-    uint32_t tile_count = 0;
-    uint32_t stratum_first = 0;
-    uint32_t stratum_count = 0;
-
-    uint64_t slot_count() const { return uint64_t(tile_count) * stratum_count * shared::kTileTexels; }
-};
-
-/// Which sample lies at a slot of a batch.
-struct SlotSample {
-    uint32_t x = 0;  ///< Pixel; may lie beyond the image's edge, in the tile.
-    uint32_t y = 0;
-    uint32_t stratum = 0;
-};
-SlotSample slot_sample(const Batch& batch, const shared::ViewGrid& grid, uint64_t slot);
 
 /// A light's side of the shadow test.
 struct LightSide {
     uint32_t light_ix = 0;
     View view;
     Bins bins;
-    uint64_t longest = 0;  ///< Most ranges of one list.
-    std::unique_ptr<SBuffer> s_buffer;
+    std::unique_ptr<ShadowMap> map;
     std::vector<Band> bands;
+    size_t filled = ~size_t(0);  ///< Which band is.
 };
 
 struct ShadowCounts {
@@ -77,13 +60,13 @@ private:
     const View& view_;
     const Bins& bins_;
     SamplerSettings settings_;
-    bool straddle_;
+    Tracer tracer_;
     bool lit_written_ = false;  ///< Of this batch.
     Batch batch_;
     uint32_t queue_count_ = 0;
     uint64_t hit_total_ = 0;
     ShadowCounts counts_;
-    gpu::Buffer hits_, lit_, queue_, runs_, ticket_, film_, depth_values_, shadow_counts_, iterators_, srgb_to_linear_;
+    gpu::Buffer lit_, queue_, runs_, ticket_, film_, depth_values_, shadow_counts_, iterators_, srgb_to_linear_;
 };
 
 }  // namespace gnomon

@@ -43,12 +43,12 @@ protected:
             side.light_ix = i;
             side.view = light_view(scene.scene.lights[i], scene.poses, i, bounds, setup.resolution);
             side.bins = bin_prisms(device(), programs(), geometry, side.view, setup.light_cells);
-            side.longest = side.bins.longest;
-            side.s_buffer = std::make_unique<SBuffer>(device(), programs(), geometry, side.bins,
+            auto s_buffer = std::make_unique<SBuffer>(device(), programs(), geometry, side.bins,
                                                       with_ranges(find_layout(setup.layout), false), "raster/conservative",
                                                       side.view.orthographic);
-            side.bands = side.s_buffer->bands(
-                setup.band_share == 1 ? 1ull << 40 : side.s_buffer->range_count() * 24 / setup.band_share + 16384);
+            side.bands =
+                s_buffer->bands(setup.band_share == 1 ? 1ull << 40 : s_buffer->range_count() * 24 / setup.band_share + 16384);
+            side.map = std::move(s_buffer);
             answers.bands = std::max(answers.bands, side.bands.size());
         }
         Sampler sampler(device(), programs(), geometry, view, bins,
@@ -64,7 +64,7 @@ protected:
             sampler.trace(batch);
             for (LightSide& side : sides) {
                 for (const Band& band : side.bands) {
-                    side.s_buffer->fill(band);
+                    side.map->fill(band);
                     sampler.test_shadows(side, band, least_tolerance(bounds));
                 }
             }

@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <gnomon/error.hpp>
 #include <set>
 
@@ -32,6 +33,10 @@ TEST(MethodTest, NamesAreUniqueAndStagesExist) {
     for (const Method& method : methods()) {
         EXPECT_TRUE(names.insert(method.name).second) << method.name;
         EXPECT_EQ(find_method(method.name).name, method.name);
+        if (!method.has_s_buffer()) {
+            EXPECT_FALSE(find_shader(method.shadow_stage).spirv.empty()) << method.name;
+            continue;
+        }
         for (const std::string& layout : layout_names()) {
             EXPECT_FALSE(find_shader(method.shadow_stage + "@" + layout).spirv.empty());
             for (const std::string& raster : method.rasters)
@@ -57,11 +62,27 @@ TEST(MethodTest, RasterIsTheMethodsOwn) {
     expect_usage_error({"'prism'"}, [] { choose_raster(find_method("exact"), "prism"); });
 }
 
-TEST(MethodTest, LightCellsFollowTheRule) {
-    EXPECT_EQ(light_cells(Method::LightCells::segments, 1, false), 1u);
-    EXPECT_EQ(light_cells(Method::LightCells::segments, 7, false), 7u);
-    EXPECT_EQ(light_cells(Method::LightCells::finer, 7, false) % 7, 0u);
-    EXPECT_EQ(light_cells(Method::LightCells::finer, 3, true), 3u);
+TEST(MethodTest, LightCellsAreAMultipleOfTheSegments) {
+    EXPECT_GT(light_cells(1, false), 1u);
+    EXPECT_EQ(light_cells(7, false) % 7, 0u);
+    EXPECT_EQ(light_cells(3, true), 3u);
+}
+
+TEST(MethodTest, ParametersAreTheMethodsOwn) {
+    check_parameters(find_method("exact"), {});
+    check_parameters(find_method("tsm"), {{"map-spp", 8.0}, {"bias", 0.25}});
+    expect_usage_error({"method exact has no parameter 'bias'", "--bias", "none"}, [] {
+        check_parameters(find_method("exact"), {{"bias", 0.1}});
+    });
+    expect_usage_error({"method tsm has no parameter 'layers'", "--layers", "--map-spp, --bias"}, [] {
+        check_parameters(find_method("tsm"), {{"layers", 4.0}});
+    });
+    expect_usage_error({"map-spp is 1.5", "--map-spp", "a whole number from 1 to 4096"}, [] {
+        check_parameters(find_method("tsm"), {{"map-spp", 1.5}});
+    });
+    expect_usage_error({"bias is -1", "from 0", "metres"}, [] { check_parameters(find_method("tsm"), {{"bias", -1.0}}); });
+    expect_usage_error({"bias is nan"}, [] { check_parameters(find_method("tsm"), {{"bias", std::nan("")}}); });
+    expect_usage_error({"method tsm has no ranges", "--raster"}, [] { choose_raster(find_method("tsm"), "analytic"); });
 }
 
 TEST(MethodTest, OnlyExitDepthsCostMemory) {

@@ -63,7 +63,7 @@ std::optional<Surface> surface_at(const MovingTriangle& triangle, double x, doub
     const double w = glm::dot(to_2, q) / determinant;
     if (b1 < 0.0 || b2 < 0.0 || b1 + b2 > 1.0 || w <= 0.0) return std::nullopt;
     const double z = (1.0 - b1 - b2) * v[0].z + b1 * v[1].z + b2 * v[2].z;
-    return Surface{z / w, volume > 0.0};
+    return Surface{z / w, volume > 0.0, {1.0 - b1 - b2, b1, b2}};
 }
 
 std::vector<Stay> stays_at(const MovingTriangle& triangle, double x, double y) {

@@ -24,6 +24,7 @@ struct Box {
 struct Surface {
     double depth = 0.0;
     bool positive = false;
+    glm::dvec3 barycentrics{0.0};  ///< Of the point on the triangle: weights of its vertices.
 };
 
 /// A time during which a triangle covers a point, local to its segment.

@@ -88,6 +88,8 @@ TEST(SurfaceAt, DepthIsPerspectivelyRight) {
     ASSERT_TRUE(surface);
     EXPECT_NEAR(surface->depth, -11.0 / 16.0, kTiny);
     EXPECT_TRUE(surface->positive);
+    // Half, a quarter and a quarter in the image; on the triangle these over 1, 2 and 4.
+    EXPECT_NEAR(glm::length(surface->barycentrics - glm::dvec3(8.0, 2.0, 1.0) / 11.0), 0.0, kTiny);
 }
 
 // z = 1, 3, 7 at (0, 0), (4, 0), (0, 4): z = 1 + x / 2 + 3 y / 2. At s = 1/2 the slider's corner is at (4, 0); (5, 2) is (1, 2)
@@ -100,6 +102,7 @@ TEST(SurfaceAt, OrthographicDepthIsLinear) {
         (*key)[2].z = 7.0;
     }
     EXPECT_NEAR(surface_at(t, 5.0, 2.0, 0.5)->depth, 4.5, kTiny);
+    EXPECT_NEAR(glm::length(surface_at(t, 5.0, 2.0, 0.5)->barycentrics - glm::dvec3(0.25, 0.25, 0.5)), 0.0, kTiny);
     std::swap(t.start[1], t.start[2]);
     std::swap(t.end[1], t.end[2]);
     EXPECT_FALSE(surface_at(t, 5.0, 2.0, 0.5)->positive);

@@ -9,6 +9,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define GN_RANGE_EXIT
 #include "common/shadow_test.glsl"
+#include "common/list.glsl"
 
 void main() {
     uint i = take_hit();

@@ -1,0 +1,52 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: the depth of each sample of a light's view, metres along the view's axis, and with kMotion how far its surface moves along the axis during the shutter.
+//          Where nothing was hit: farther than everything, at rest.
+// Reads:   hits, triangles, raster_vertices
+// Writes:  MapSamples (per stratum, tile and texel, rows from the top)
+// Grid:    one invocation per sample of one stratum
+// Based on: Akenine-Moller et al. 2007, "Stochastic rasterization using time-continuous triangles", section 5; motion: Andersson et al. 2015, section 5.1
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kOrthographic = false;
+layout(constant_id = 1) const bool kStraddle = false;  // As in sample/trace.
+layout(constant_id = 2) const bool kMotion = false;
+layout(binding = 0) uniform usamplerBuffer hits;
+layout(binding = 1) uniform usamplerBuffer triangles;
+layout(binding = 2) uniform samplerBuffer raster_vertices;
+layout(binding = 3, scalar) writeonly buffer MapSamples { float map_samples[]; };
+layout(push_constant, scalar) uniform Push { MapDepthParams params; };
+#include "common/triangle.glsl"
+#include "common/batch.glsl"
+#include "common/receiver.glsl"
+
+// Metres along the view's axis.
+float metres_of(vec4 p) { return kOrthographic ? p.z : p.w; }
+
+void main() {
+    uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    ViewGrid grid = params.grid;
+    bool inside = i < grid.tiles_x * grid.tiles_y * kTileTexels;
+    i = inside ? i : 0u;
+    uint entry = texelFetch(hits, int(i)).x;
+    bool hit = entry != kNone;
+    entry = hit ? entry & ~kReversed : grid.triangle_count;
+    Slot s = unpack_slot(i, 1u);
+    Receiver h = fetch_receiver(entry, slot_pixel(s, 0u, grid.tiles_x), params.stratum, params.spp, params.seed, grid, kStraddle, kOrthographic);
+    MovingTriangle m = fetch_moving_triangle(entry, h.segment * grid.vertex_stride, grid.vertex_stride);
+    float a = h.barycentrics.x * metres_of(m.a0) + h.barycentrics.y * metres_of(m.a1) + h.barycentrics.z * metres_of(m.a2);
+    float d = h.barycentrics.x * metres_of(m.d0) + h.barycentrics.y * metres_of(m.d1) + h.barycentrics.z * metres_of(m.d2);
+
+    uint at = params.element_first + s.tile * kTileTexels + s.row * kTileSize + s.column;
+    float depth = hit ? a + h.local_time * d : kFarthest;
+    if (inside) {
+        if (kMotion) {
+            map_samples[2u * at] = depth;
+            map_samples[2u * at + 1u] = hit ? d * float(grid.segment_count) : 0.0;
+        } else {
+            map_samples[at] = depth;
+        }
+    }
+}

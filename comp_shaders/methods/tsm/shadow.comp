@@ -1,0 +1,30 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: does the light reach the hit? Not where the map's sample of the hit's texel and stratum of time is nearer than the hit by more than the bias. With kMotion the
+//          sample's surface is first moved to the hit's time.
+// Reads:   queue, hits, triangles, raster_vertices (camera), light_vertices, map_samples
+// Writes:  Lit (per slot: bit `light`), ShadowCounts (samples visited, samples tested)
+// Grid:    one invocation per hit
+// Based on: Akenine-Moller et al. 2007, "Stochastic rasterization using time-continuous triangles", section 5; motion: Andersson et al. 2015, section 5.1, eq. 12
+#extension GL_GOOGLE_include_directive : require
+#include "common/shadow_test.glsl"
+
+layout(constant_id = 6) const float kBias = 0.0;  // Metres.
+layout(constant_id = 7) const bool kMotion = false;
+layout(constant_id = 8) const uint kMapSeed = 0u;
+layout(binding = 16) uniform samplerBuffer map_samples;  // Depth in metres, and motion in metres per shutter.
+
+void main() {
+    uint i = take_hit();
+    ShadowTest test = shadow_test(i);
+    vec2 map_sample = texelFetch(map_samples, test.here ? int(test.list - params.range_first) : 0).xy;
+    float depth = kOrthographic ? test.depth : -1.0 / test.depth;
+    if (kMotion) {
+        uint stratum = cell_of(test.receiver.t, params.light_cell_count);
+        vec3 point = sample_point(pixel_hash(test.texel.x, test.texel.y, kMapSeed), test.texel.x, test.texel.y, stratum, params.light_cell_count);
+        map_sample.x += map_sample.y * (test.receiver.t - point.z);
+    }
+    bool shadowed = test.here && map_sample.x < depth - kBias;
+    write_lit(i, test, shadowed);
+    if (kCount) add_shadow_counts(i, 1u, test.here ? 1u : 0u, test.here);
+}

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the shadow tests of one light read, by whatever method.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gpu/gpu.hpp"
+
+namespace gnomon {
+
+/// A run of items (a tile in a cell of time) and the elements of their texels.
+struct Band {
+    uint32_t item_first = 0;
+    uint32_t item_count = 0;
+    uint64_t range_first = 0;
+    uint64_t range_count = 0;
+    double t_open = 0.0;  ///< The part of the shutter that it serves.
+    double t_close = 1.0;
+};
+
+/// How items are numbered: tile * tile_stride + cell * cell_stride.
+struct ItemOrder {
+    uint32_t cell_count = 1;  ///< Equal parts of the shutter.
+    uint32_t tile_stride = 1;
+    uint32_t cell_stride = 1;
+};
+
+class ShadowMap {
+public:
+    ShadowMap() = default;
+    ShadowMap(const ShadowMap&) = delete;
+    ShadowMap& operator=(const ShadowMap&) = delete;
+    virtual ~ShadowMap() = default;
+
+    virtual ItemOrder order() const = 0;
+    virtual uint32_t item_count() const = 0;
+    /// Most elements that one test walks.
+    virtual uint64_t longest() const { return 1; }
+
+    /// Bands that take at most `bytes` each; one, if all of it does. Errors: ErrorKind::out_of_memory, saying how much is
+    /// needed.
+    virtual std::vector<Band> bands(uint64_t bytes) const = 0;
+    /// For the report: what there is of it, and how it was made.
+    virtual std::map<std::string, uint64_t> counts() const { return {}; }
+    virtual std::map<std::string, std::string> effective() const { return {}; }
+
+    /// Fill a band; the one before is forgotten.
+    virtual void fill(const Band& band) = 0;
+
+    /// What the test reads, the number of the first element in memory, and specialization constants of its own: constant_id 6,
+    /// 7, ... (common/shadow_test.glsl).
+    virtual std::vector<gpu::Binding> read_bindings() const = 0;
+    virtual uint32_t range_base() const { return 0; }
+    virtual std::vector<uint32_t> test_constants() const { return {}; }
+};
+
+}  // namespace gnomon
