@@ -11,13 +11,15 @@ Json document(const std::string& kind) {
 }
 
 Json settings_json(const RenderSettings& settings) {
-    return {
+    Json json = {
         {"width", settings.width},   {"height", settings.height},
         {"spp", settings.spp},       {"seed", settings.seed},
         {"camera", settings.camera}, {"shadow_res", settings.shadow_res},
         {"method", settings.method}, {"layout", settings.layout},
         {"raster", settings.raster}, {"memory_budget", settings.memory_budget},
     };
+    for (const auto& [name, value] : settings.parameters) json[name] = value;
+    return json;
 }
 
 Json render_json(const Frame& frame, const Json& settings, const std::vector<std::string>& outputs,

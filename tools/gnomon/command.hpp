@@ -29,6 +29,7 @@ void warn_if_unused(const CLI::App& command, const std::string& option, const st
 void add_render(CLI::App& app, Invocation& invocation);
 void add_info(CLI::App& app, Invocation& invocation);
 void add_devices(CLI::App& app, Invocation& invocation);
+void add_methods(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
 
 /// Messages go to stderr as `gnomon: LEVEL: TEXT`, in colour on a terminal unless NO_COLOR is set.

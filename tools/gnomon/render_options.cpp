@@ -5,6 +5,8 @@
 #include <gnomon/version.hpp>
 #include <limits>
 
+#include "methods/method.hpp"
+
 namespace gnomon::cli {
 
 namespace {
@@ -18,6 +20,25 @@ CLI::Option* add_parsed(CLI::App& command, const std::string& name, const std::s
     option->type_name(type);
     if (!default_text.empty()) option->default_str(default_text);
     return option;
+}
+
+/// One option for each parameter of any method.
+void add_parameters(CLI::App& command, std::map<std::string, double>& values) {
+    std::map<std::string, Parameter> all;
+    for (const Method& method : methods()) {
+        for (const Parameter& parameter : method.parameters) {
+            Parameter& known = all.emplace(parameter.name, parameter).first->second;
+            known.least = std::min(known.least, parameter.least);
+            known.most = std::max(known.most, parameter.most);
+        }
+    }
+    for (const auto& [name, p] : all) {
+        add_parsed(command, "--" + name, "X", "", p.summary + " [" + p.initial + "]",
+                   [&values, p = p](const std::string& text, const std::string& option) {
+                       values[p.name] = parse_number(text, option, p.least, p.most);
+                   })
+            ->group("Method, see 'gnomon methods'");
+    }
 }
 
 }  // namespace
@@ -73,6 +94,8 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
     add_parsed(command, "--shadow-res", "N", "1024", "Texels along a light view's side", [&o](Text text, Text name) {
         o.settings.shadow_res = parse_count(text, name, 1, 16384);
     })->group(picture);
+
+    add_parameters(command, o.settings.parameters);
 
     CLI::Option* shutter = add_parsed(command, "--shutter", "OPEN:CLOSE", "0:0.0208333", "Seconds on the animation clock",
                                       [&o](Text text, Text name) { o.shutter = parse_shutter(text, name); })

@@ -35,8 +35,12 @@ TEST_F(CliTest, Version) {
 }
 
 TEST_F(CliTest, HelpGoesToStdout) {
-    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
-             {"--help"}, {"render", "--help"}, {"info", "--help"}, {"devices", "--help"}, {"compare", "--help"}}) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{{"--help"},
+                                                                                           {"render", "--help"},
+                                                                                           {"info", "--help"},
+                                                                                           {"devices", "--help"},
+                                                                                           {"methods", "--help"},
+                                                                                           {"compare", "--help"}}) {
         const CommandResult result = run(arguments);
         EXPECT_EQ(result.exit_code, 0) << arguments[0];
         EXPECT_THAT(result.out, HasSubstr("Usage: gnomon")) << arguments[0];
@@ -44,9 +48,10 @@ TEST_F(CliTest, HelpGoesToStdout) {
     }
     const std::string help = run({"render", "--help"}).out;
     for (const char* option :
-         {"-o",           "--png",           "--exposure",  "--size",   "--spp",        "--seed",    "--shutter", "--frames",
-          "--fps",        "--shutter-angle", "--animation", "--camera", "--time-steps", "--method",  "--layout",  "--raster",
-          "--shadow-res", "--memory-budget", "--device",    "--json",   "--quiet",      "--verbose", "--ground",  "--validate"})
+         {"-o",        "--png",    "--exposure",      "--size",          "--spp",    "--seed",       "--shutter",
+          "--frames",  "--fps",    "--shutter-angle", "--animation",     "--camera", "--time-steps", "--method",
+          "--layout",  "--raster", "--shadow-res",    "--memory-budget", "--device", "--json",       "--quiet",
+          "--verbose", "--ground", "--validate",      "--map-spp",       "--bias"})
         EXPECT_THAT(help, HasSubstr(option));
 }
 
@@ -146,6 +151,21 @@ TEST_F(CliTest, ResultsThatCannotBeWrittenAreAnError) {
         run_gnomon(folder, {"info", "a.gltf"}, [] { dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO); });
     EXPECT_EQ(result.exit_code, 3);
     EXPECT_THAT(result.err, AllOf(IsOneError(), HasSubstr("standard output")));
+}
+
+TEST_F(CliTest, Methods) {
+    const CommandResult result = run({"methods", "--json=-"});
+    EXPECT_EQ(result.exit_code, 0);
+    const json document = json::parse(result.out);
+    EXPECT_EQ(document["schema"], "gnomon.methods");
+    const std::string help = run({"render", "--help"}).out, text = run({"methods"}).out;
+    for (const json& method : document["methods"]) {
+        EXPECT_THAT(text, HasSubstr(method["name"].get<std::string>()));
+        for (const json& parameter : method["parameters"]) {
+            EXPECT_THAT(help, HasSubstr("--" + parameter["name"].get<std::string>()));
+            EXPECT_LT(parameter["least"].get<double>(), parameter["most"].get<double>());
+        }
+    }
 }
 
 TEST_F(CliTest, Devices) {
