@@ -3,6 +3,11 @@
 #include "math/sample.h"
 #include "shared/slot.h"
 
+// Where and when a pixel of a view is sampled.
+vec3 view_sample(bool sliced, uint x, uint y, uint stratum, uint spp, uint seed) {
+    return sliced ? slice_point(x, y, stratum, spp) : sample_point(pixel_hash(x, y, seed), x, y, stratum, spp);
+}
+
 struct Slot {
     uint tile;     // From the batch's first.
     uint stratum;

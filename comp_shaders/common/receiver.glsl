@@ -13,10 +13,9 @@ struct Receiver {
     uvec2 pixel;
 };
 
-// The segment is the one whose keys the trace stage used: that of the sample's camera cell.
-Receiver fetch_receiver(uint entry, uvec2 pixel, uint stratum, uint spp, uint seed, ViewGrid grid, bool straddle, bool orthographic) {
+// p: its sample. The segment is the one whose keys the trace stage used: that of the sample's camera cell.
+Receiver fetch_receiver(uint entry, uvec2 pixel, vec3 p, uint stratum, uint spp, ViewGrid grid, bool straddle, bool orthographic) {
     Receiver h;
-    vec3 p = sample_point(pixel_hash(pixel.x, pixel.y, seed), pixel.x, pixel.y, stratum, spp);
     h.pixel = pixel;
     h.t = p.z;
     uint cell = straddle ? cell_of(p.z, grid.cell_count) : divide(stratum, spp / grid.cell_count);

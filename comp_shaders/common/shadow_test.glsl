@@ -70,7 +70,9 @@ ShadowTest shadow_test(uint i) {
     test.own = texelFetch(hits, int(test.slot)).x & ~kReversed;
     Slot s = unpack_slot(test.slot, params.stratum_count);
     uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
-    Receiver h = fetch_receiver(test.own, pixel, params.stratum_first + s.stratum, params.spp, params.seed, params.camera, kStraddle, kCameraOrthographic);
+    uint stratum = params.stratum_first + s.stratum;
+    vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.spp, params.seed);
+    Receiver h = fetch_receiver(test.own, pixel, point, stratum, params.spp, params.camera, kStraddle, kCameraOrthographic);
 
     // The hit as the light's view holds it: on its own triangle at its own time.
     vec4 p0 = light_vertex_at(h.vertex.x, h);

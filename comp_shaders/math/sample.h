@@ -34,6 +34,11 @@ GN_FN vec3 sample_point(uint pixel, uint x_px, uint y_px, uint s, uint spp) {
     return vec3(x, y, t);
 }
 
+// Sample `s` of `count` that all pixels take at one time: the pixel's centre in the middle of a slice of the shutter.
+GN_FN vec3 slice_point(uint x_px, uint y_px, uint s, uint count) {
+    return vec3(float(x_px) + 0.5f, float(y_px) + 0.5f, (float(s) + 0.5f) / float(count));
+}
+
 // The cell, of `cell_count` equal ones, that time t in [0, 1) lies in.
 GN_FN uint cell_of(float t, uint cell_count) { return min(uint(t * float(cell_count)), cell_count - 1u); }
 

@@ -110,7 +110,9 @@ void main() {
             ++s;
         }
         if (entry != kNone) {
-            Receiver h = fetch_receiver(entry, pixel, params.stratum_first + s - 1u, params.spp, params.seed, grid, kStraddle, kOrthographic);
+            uint stratum = params.stratum_first + s - 1u;
+            vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.spp, params.seed);
+            Receiver h = fetch_receiver(entry, pixel, point, stratum, params.spp, grid, kStraddle, kOrthographic);
             vec3 w0 = world_at(positions, h.vertex.x, h), w1 = world_at(positions, h.vertex.y, h), w2 = world_at(positions, h.vertex.z, h);
             vec3 position = blend(w0, w1, w2, h.barycentrics);
             // Seen in positive orientation, the normal of the triangle's own winding points away from the camera.

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Purpose: the nearest triangle at each camera sample.
+// Purpose: the nearest triangle at each sample of a view.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
 // Writes:  Hits (per slot of the batch: the list entry, a triangle and its orientation, or kNone)
 // Grid:    8 invocations per tile and stratum of time: one per column of pixels, its 8 rows in registers; they fetch the list's triangles for each other
@@ -12,6 +12,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const bool kStraddle = false;  // A stratum may lie in several cells.
 layout(constant_id = 2) const bool kContinue = false;  // Go on from the hits of an earlier part of the lists.
+layout(constant_id = 3) const bool kSliced = false;    // Samples are slice_points.
 layout(binding = 0) uniform usamplerBuffer bin_offsets;
 layout(binding = 1) uniform usamplerBuffer bin_entries;
 layout(binding = 2) uniform usamplerBuffer triangles;
@@ -68,7 +69,7 @@ void main() {
     uint x_px = tile_x * kTileSize + lane;
     [[unroll]] for (uint r = 0u; r < 8u; ++r) {
         uint y_px = tile_y * kTileSize + r;
-        vec3 p = sample_point(pixel_hash(x_px, y_px, params.seed), x_px, y_px, stratum, params.spp);
+        vec3 p = view_sample(kSliced, x_px, y_px, stratum, params.spp, params.seed);
         point[r] = vec3(p.x - 0.5 * float(grid.width), p.y - 0.5 * float(grid.height), p.z);
         bool visible = inside && x_px < grid.width && y_px < grid.height;
         best[r] = Best(visible ? params.depth_far : -3.4e38, kNone);

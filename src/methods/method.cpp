@@ -6,7 +6,7 @@
 #include <gnomon/error.hpp>
 #include <sstream>
 
-#include "methods/tsm.hpp"
+#include "methods/depth_map.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "stages/raster.hpp"
 
@@ -26,8 +26,9 @@ uint32_t segment_cells(const LightContext& light) { return light.geometry.segmen
 uint32_t finer_cells(const LightContext& light) { return light_cells(light.geometry.segment_count, light.still); }
 
 // A map is sampled as the camera's image is.
+template <DepthMapKind kKind>
 uint32_t map_cells(const LightContext& light) {
-    return camera_cells(map_spp(light), light.geometry.segment_count, light.still);
+    return camera_cells(map_sampling(light, kKind).spp, light.geometry.segment_count, light.still);
 }
 
 std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
@@ -35,9 +36,9 @@ std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& 
                                      light.view.orthographic);
 }
 
-template <bool kMotion>
-std::unique_ptr<ShadowMap> make_tsm(const LightContext& light, const Bins& bins) {
-    return std::make_unique<TimeDependentMap>(light, bins, kMotion);
+template <DepthMapKind kKind>
+std::unique_ptr<ShadowMap> make_depth_map(const LightContext& light, const Bins& bins) {
+    return std::make_unique<DepthMap>(light, bins, kKind);
 }
 
 std::string number(double value) {
@@ -73,17 +74,24 @@ const std::vector<Method>& methods() {
         {.name = "tsm",
          .summary = "a time-dependent shadow map: one depth per texel and stratum of time, constant bias",
          .source = "Akenine-Moller et al. 2007, 5",
-         .shadow_stage = "methods/tsm/shadow",
+         .shadow_stage = "methods/depth_map/shadow",
          .parameters = tsm_parameters(),
-         .light_cells = map_cells,
-         .make_map = make_tsm<false>},
+         .light_cells = map_cells<DepthMapKind::stochastic>,
+         .make_map = make_depth_map<DepthMapKind::stochastic>},
         {.name = "tsm-dynamic-bias",
          .summary = "tsm, its depths moved to the hit's time",
          .source = "Andersson et al. 2015, 5.1, eq. 12",
-         .shadow_stage = "methods/tsm/shadow",
+         .shadow_stage = "methods/depth_map/shadow",
          .parameters = tsm_parameters(),
-         .light_cells = map_cells,
-         .make_map = make_tsm<true>},
+         .light_cells = map_cells<DepthMapKind::dynamic_bias>,
+         .make_map = make_depth_map<DepthMapKind::dynamic_bias>},
+        {.name = "accumulate",
+         .summary = "hard shadow maps of many times; a hit is tested against that of the nearest",
+         .source = "Haeberli and Akeley 1990",
+         .shadow_stage = "methods/depth_map/shadow",
+         .parameters = accumulate_parameters(),
+         .light_cells = map_cells<DepthMapKind::slices>,
+         .make_map = make_depth_map<DepthMapKind::slices>},
     };
     return all;
 }

@@ -34,7 +34,7 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
       view_(view),
       bins_(bins),
       settings_(settings),
-      tracer_(device, programs, geometry, view, bins, "sample/trace", settings.spp, settings.seed, settings.most_slots) {
+      tracer_(device, programs, geometry, view, bins, "sample/trace", {settings.spp, settings.seed}, settings.most_slots) {
     const uint64_t most_slots = settings.most_slots;
     uint64_t pixels = uint64_t(bins.grid.width) * bins.grid.height;
     lit_ = device.allocate("lit", most_slots * 4);

@@ -18,32 +18,32 @@ SlotSample slot_sample(const Batch& batch, const shared::ViewGrid& grid, uint64_
 }
 
 Tracer::Tracer(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
-               std::string stage, uint32_t spp, uint32_t seed, uint64_t most_slots)
+               std::string stage, const Sampling& sampling, uint64_t most_slots)
     : programs_(programs),
       geometry_(geometry),
       view_(view),
       bins_(bins),
       stage_(std::move(stage)),
-      spp_(spp),
-      seed_(seed),
-      straddle_(spp % bins.grid.cell_count != 0),
+      sampling_(sampling),
+      straddle_(sampling.spp % bins.grid.cell_count != 0),
       hits_(device.allocate("hits", most_slots * 4)),
       ticket_(device.allocate("ticket", 4)) {}
 
 void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
-    const uint32_t chunk = shared::trace_chunk(bins_.grid, spp_);
+    const uint32_t chunk = shared::trace_chunk(bins_.grid, sampling_.spp);
     for (uint32_t first = 0; first == 0 || first < bins_.longest; first += chunk) {
         recorder.fill(stage_, ticket_, 0);
-        recorder.dispatch(stage_, programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0}),
-                          bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
-                                    {"bin_entries", &bins_.entries, Texel::r32_uint},
-                                    {"triangles", &geometry_.triangles, Texel::rgba32_uint},
-                                    {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                    {"Hits", &hits_},
-                                    {"Ticket", &ticket_}}),
-                          shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first,
-                                              batch.stratum_count, spp_, seed_, first, view_.depth_near, view_.depth_far},
-                          groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
+        recorder.dispatch(
+            stage_, programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0, sampling_.sliced}),
+            bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
+                      {"bin_entries", &bins_.entries, Texel::r32_uint},
+                      {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                      {"Hits", &hits_},
+                      {"Ticket", &ticket_}}),
+            shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
+                                sampling_.spp, sampling_.seed, first, view_.depth_near, view_.depth_far},
+            groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
     }
 }
 

@@ -24,12 +24,18 @@ struct SlotSample {
 };
 SlotSample slot_sample(const Batch& batch, const shared::ViewGrid& grid, uint64_t slot);
 
+/// Where and when the pixels of a view are sampled (comp_shaders/math/sample.h).
+struct Sampling {
+    uint32_t spp = 1;  ///< Samples of a pixel, one in each stratum of time.
+    uint32_t seed = 0;
+    bool sliced = false;  ///< All pixels in their centres at the same times: slice_point.
+};
+
 class Tracer {
 public:
-    /// stage: the name among the timings. spp: samples in each pixel, one per stratum of time (math/sample.h).
-    /// most_slots: of a batch.
+    /// stage: the name among the timings. most_slots: of a batch.
     Tracer(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
-           std::string stage, uint32_t spp, uint32_t seed, uint64_t most_slots);
+           std::string stage, const Sampling& sampling, uint64_t most_slots);
 
     void record(gpu::Recorder& recorder, const Batch& batch);
 
@@ -44,7 +50,7 @@ private:
     const View& view_;
     const Bins& bins_;
     std::string stage_;
-    uint32_t spp_, seed_;
+    Sampling sampling_;
     bool straddle_;
     gpu::Buffer hits_, ticket_;
 };

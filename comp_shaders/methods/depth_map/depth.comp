@@ -13,6 +13,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const bool kStraddle = false;  // As in sample/trace.
 layout(constant_id = 2) const bool kMotion = false;
+layout(constant_id = 3) const bool kSliced = false;    // As in sample/trace.
 layout(binding = 0) uniform usamplerBuffer hits;
 layout(binding = 1) uniform usamplerBuffer triangles;
 layout(binding = 2) uniform samplerBuffer raster_vertices;
@@ -34,7 +35,9 @@ void main() {
     bool hit = entry != kNone;
     entry = hit ? entry & ~kReversed : grid.triangle_count;
     Slot s = unpack_slot(i, 1u);
-    Receiver h = fetch_receiver(entry, slot_pixel(s, 0u, grid.tiles_x), params.stratum, params.spp, params.seed, grid, kStraddle, kOrthographic);
+    uvec2 texel = slot_pixel(s, 0u, grid.tiles_x);
+    vec3 point = view_sample(kSliced, texel.x, texel.y, params.stratum, params.spp, params.seed);
+    Receiver h = fetch_receiver(entry, texel, point, params.stratum, params.spp, grid, kStraddle, kOrthographic);
     MovingTriangle m = fetch_moving_triangle(entry, h.segment * grid.vertex_stride, grid.vertex_stride);
     float a = h.barycentrics.x * metres_of(m.a0) + h.barycentrics.y * metres_of(m.a1) + h.barycentrics.z * metres_of(m.a2);
     float d = h.barycentrics.x * metres_of(m.d0) + h.barycentrics.y * metres_of(m.d1) + h.barycentrics.z * metres_of(m.d2);

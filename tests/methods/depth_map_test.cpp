@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Time-dependent shadow maps: every sample of a map against the oracle, and shadow tests whose answers are known in closed
-// form.
-#include "methods/tsm.hpp"
+// Methods tsm, tsm-dynamic-bias and accumulate: every sample of a map against the oracle, and shadow tests whose answers are
+// known in closed form.
+#include "methods/depth_map.hpp"
 
 #include <algorithm>
 #include <map>
@@ -15,7 +15,7 @@
 namespace gnomon::test {
 namespace {
 
-class TsmTest : public StageTest {};
+class DepthMapTest : public StageTest {};
 
 struct MapSample {
     float depth = 0.0f;
@@ -23,7 +23,7 @@ struct MapSample {
 };
 
 /// Of a map, index stratum * texels + texel, in the order in which the shadow test reads them; in bands of at most `bytes`.
-std::vector<MapSample> map_samples(gpu::Device& device, TimeDependentMap& map, bool motion, uint64_t bytes) {
+std::vector<MapSample> map_samples(gpu::Device& device, DepthMap& map, bool motion, uint64_t bytes) {
     std::vector<MapSample> result;
     for (const Band& band : map.bands(bytes)) {
         map.fill(band);
@@ -50,8 +50,8 @@ glm::uvec2 texel_of(const shared::ViewGrid& grid, uint32_t i) {
             tile / grid.tiles_x * shared::kTileSize + place / shared::kTileSize};
 }
 
-Checked check_map(const Soup& soup, const shared::ViewGrid& grid, const std::vector<MapSample>& samples, uint32_t spp,
-                  uint32_t seed) {
+Checked check_map(const Soup& soup, const shared::ViewGrid& grid, const std::vector<MapSample>& samples,
+                  const Sampling& sampling, bool motion) {
     std::vector<std::vector<oracle::MovingTriangle>> triangles;
     for (uint32_t k = 0; k < soup.segments(); ++k) triangles.push_back(soup.all_triangles(k));
     const View view = soup.view();
@@ -60,7 +60,9 @@ Checked check_map(const Soup& soup, const shared::ViewGrid& grid, const std::vec
     for (uint32_t i = 0; i < samples.size(); ++i) {
         const glm::uvec2 texel = texel_of(grid, i % texels);
         if (texel.x >= soup.width || texel.y >= soup.height) continue;
-        const glm::dvec3 p(shared::sample_point(shared::pixel_hash(texel.x, texel.y, seed), texel.x, texel.y, i / texels, spp));
+        const uint32_t stratum = i / texels, hash = shared::pixel_hash(texel.x, texel.y, sampling.seed);
+        const glm::dvec3 p = sampling.sliced ? glm::dvec3(texel.x + 0.5, texel.y + 0.5, (stratum + 0.5) / sampling.spp)
+                                             : glm::dvec3(shared::sample_point(hash, texel.x, texel.y, stratum, sampling.spp));
         const auto segment = std::min(static_cast<uint32_t>(p.z * soup.segments()), soup.segments() - 1);
         const double s = p.z * soup.segments() - segment;
         const std::vector<oracle::Seen> seen =
@@ -78,14 +80,14 @@ Checked check_map(const Soup& soup, const shared::ViewGrid& grid, const std::vec
             start += seen[0].surface.barycentrics[v] * metres(t.start[static_cast<size_t>(v)]);
             end += seen[0].surface.barycentrics[v] * metres(t.end[static_cast<size_t>(v)]);
         }
-        const double depth = start + s * (end - start), motion = (end - start) * soup.segments();
+        const double depth = start + s * (end - start), moved = motion ? (end - start) * soup.segments() : 0.0;
         const double depth_error = std::abs(samples[i].depth - depth) / (1.0 + std::abs(depth));
         if (depth_error > 1e-2) {
             ++checked.other;
             continue;
         }
         checked.depth_error = std::max(checked.depth_error, depth_error);
-        checked.motion_error = std::max(checked.motion_error, std::abs(samples[i].motion - motion) / (1.0 + std::abs(motion)));
+        checked.motion_error = std::max(checked.motion_error, std::abs(samples[i].motion - moved) / (1.0 + std::abs(moved)));
     }
     return checked;
 }
@@ -110,13 +112,14 @@ Soup overlapping(uint32_t segments, bool orthographic, std::mt19937& random) {
     return soup;
 }
 
-TEST_F(TsmTest, SamplesAreWhatTheOracleSees) {
+TEST_F(DepthMapTest, SamplesAreWhatTheOracleSees) {
     std::mt19937 random(5);
     for (const bool orthographic : {false, true}) {
         for (const uint32_t segments : {1u, 3u}) {
-            for (const bool motion : {false, true}) {
+            for (const DepthMapKind kind : {DepthMapKind::stochastic, DepthMapKind::dynamic_bias, DepthMapKind::slices}) {
+                const bool motion = kind == DepthMapKind::dynamic_bias, sliced = kind == DepthMapKind::slices;
                 SCOPED_TRACE(testing::Message() << (orthographic ? "orthographic, " : "perspective, ") << segments
-                                                << " segments, motion " << motion);
+                                                << " segments, motion " << motion << ", sliced " << sliced);
                 const Soup soup = overlapping(segments, orthographic, random);
                 const Scene scene = soup.scene();
                 const std::vector<Pose> poses = soup.poses();
@@ -124,21 +127,19 @@ TEST_F(TsmTest, SamplesAreWhatTheOracleSees) {
                 const Geometry geometry = pose_geometry(device(), programs(), scene, poses);
                 const Bounds bounds{};
                 RenderSettings settings;
-                settings.parameters["map-spp"] = 7;
-                const Method& method = find_method(motion ? "tsm-dynamic-bias" : "tsm");
+                settings.parameters[sliced ? "slices" : "map-spp"] = 7;
+                const Method& method = find_method(motion ? "tsm-dynamic-bias" : sliced ? "accumulate" : "tsm");
                 const LightContext light{device(), programs(), geometry, settings, method, view, bounds, 0, false, {}, ""};
                 const Bins bins = bin_prisms(device(), programs(), geometry, view, method.light_cells(light));
-                TimeDependentMap map(light, bins, motion);
+                DepthMap map(light, bins, kind);
                 const std::vector<MapSample> samples = map_samples(device(), map, motion, 1ull << 40);
                 ASSERT_EQ(samples.size(), map.counts().at("map_samples"));
-                const Checked checked = check_map(soup, bins.grid, samples, 7, map_seed(light));
+                const Checked checked = check_map(soup, bins.grid, samples, map_sampling(light, kind), motion);
                 EXPECT_GT(checked.seen, 2000u);
                 EXPECT_GT(checked.unseen, 100u);
                 EXPECT_LE(checked.other, checked.seen / 1000);  // At silhouettes, by rounding.
                 EXPECT_LT(checked.depth_error, 2e-5);
-                if (motion) {
-                    EXPECT_LT(checked.motion_error, 2e-4);
-                }
+                EXPECT_LT(checked.motion_error, 2e-4);
 
                 // A band a stratum: the same samples.
                 const uint64_t stratum =
@@ -217,9 +218,9 @@ TEST_F(RisingSquareTest, DoesNotShadowItselfWhenDepthsAreMovedToItsTime) {
 }
 
 /// Samples of the shipped scene whose light differs from that of the exact method.
-class TsmCubesTest : public TwoCubes<> {
+class DepthMapCubesTest : public TwoCubes<> {
 protected:
-    TsmCubesTest() : TwoCubes(96, 64, 8) { settings.keep_samples = true; }
+    DepthMapCubesTest() : TwoCubes(96, 64, 8) { settings.keep_samples = true; }
 
     Frame render(const std::string& method) {
         settings.method = method;
@@ -245,7 +246,7 @@ protected:
 };
 
 // With a bias that surfaces at rest need.
-TEST_F(TsmCubesTest, MovingTowardTheLightIsWrongUntilDepthsMove) {
+TEST_F(DepthMapCubesTest, MovingTowardTheLightIsWrongUntilDepthsMove) {
     settings.shadow_res = 2048;
     parameters["bias"] = 0.1;
     const double tsm = wrong_share("tsm"), moved = wrong_share("tsm-dynamic-bias");
@@ -255,7 +256,7 @@ TEST_F(TsmCubesTest, MovingTowardTheLightIsWrongUntilDepthsMove) {
     EXPECT_LT(moved, tsm / 3.0);
 }
 
-TEST_F(TsmCubesTest, StillScenesAreRightButForTexelsAndBias) {
+TEST_F(DepthMapCubesTest, StillScenesAreRightButForTexelsAndBias) {
     poses.assign(poses.size(), poses.front());
     double before = 1.0;
     for (const uint32_t resolution : {128u, 512u, 2048u}) {
@@ -268,7 +269,22 @@ TEST_F(TsmCubesTest, StillScenesAreRightButForTexelsAndBias) {
     EXPECT_LT(before, 0.02);
 }
 
-TEST_F(TsmCubesTest, MemoryAndBatchesDoNotMatter) {
+// Slices mix times less the more there are, and texels places; what then remains is the bias.
+TEST_F(DepthMapCubesTest, SlicesNearTheExactMethod) {
+    settings.shadow_res = 1024;
+    parameters["bias"] = 0.1;
+    double before = 1.0;
+    for (const double slices : {2.0, 8.0, 32.0}) {
+        parameters["slices"] = slices;
+        const double share = wrong_share("accumulate");
+        RecordProperty("share_" + std::to_string(static_cast<int>(slices)), std::to_string(share));
+        EXPECT_LT(share, 0.75 * before) << slices;
+        before = share;
+    }
+    EXPECT_LT(before, 0.008);
+}
+
+TEST_F(DepthMapCubesTest, MemoryAndBatchesDoNotMatter) {
     for (const char* method : {"tsm", "tsm-dynamic-bias"}) {
         settings.memory_budget = 0;
         parameters["map-spp"] = settings.parameters["map-spp"] = 12;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps of N depths per texel, one in each stratum of the shutter: time-dependent shadow maps, whose texels are sampled anywhere
+// and anytime in their stratum, and the accumulation buffer's hard shadow maps, each of one time. Based on: Akenine-Moller et
+// al. 2007, "Stochastic rasterization using time-continuous triangles", section 5; Haeberli and Akeley 1990, "The accumulation
+// buffer: hardware support for high-quality rendering".
+#pragma once
+
+#include "methods/method.hpp"
+#include "stages/trace.hpp"
+
+namespace gnomon {
+
+/// Parameters map-spp and bias, or slices and bias.
+std::vector<Parameter> tsm_parameters();
+std::vector<Parameter> accumulate_parameters();
+
+enum class DepthMapKind {
+    stochastic,    ///< tsm
+    dynamic_bias,  ///< Samples also hold how far their surface moves along the light's axis (Andersson et al. 2015,
+                   ///< section 5.1).
+    slices,        ///< accumulate
+};
+
+/// How the light's view is sampled: map-spp or slices, else as often as the camera's image or 3000 times; with a seed of the
+/// light's own.
+Sampling map_sampling(const LightContext& light, DepthMapKind kind);
+
+/// Metres: bias, else twice a texel's width; of a spot's, at a distance of the diagonal of the scene's bounds.
+float map_bias(const LightContext& light);
+
+class DepthMap final : public ShadowMap {
+public:
+    DepthMap(const LightContext& light, const Bins& bins, DepthMapKind kind);
+
+    ItemOrder order() const override { return {sampling_.spp, 1, tile_count_}; }
+    uint32_t item_count() const override { return sampling_.spp * tile_count_; }
+    std::map<std::string, uint64_t> counts() const override;
+    std::map<std::string, std::string> effective() const override;
+    std::vector<Band> bands(uint64_t bytes) const override;
+    void fill(const Band& band) override;
+    std::vector<gpu::Binding> read_bindings() const override;
+    uint32_t range_base() const override { return base_; }
+    std::vector<uint32_t> test_constants() const override;
+
+private:
+    bool motion() const { return kind_ == DepthMapKind::dynamic_bias; }
+    uint64_t sample_bytes() const { return motion() ? 8 : 4; }
+
+    const LightContext& light_;
+    const Bins& bins_;
+    DepthMapKind kind_;
+    Sampling sampling_;
+    uint32_t tile_count_;
+    uint32_t base_ = 0;
+    Tracer tracer_;
+    gpu::Buffer samples_;
+};
+
+}  // namespace gnomon
