@@ -22,8 +22,8 @@ struct RenderSettings {
     std::string method = "exact";
     std::string layout = "array";  ///< A registered layout, or a folder that holds one.
     std::string raster = "auto";   ///< How ranges are found: analytic, conservative, or auto: what the method is made for.
-    std::map<std::string, double> parameters =
-        {};                      ///< Of the method, by name (`gnomon methods`); others have their initial values.
+    /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
+    std::map<std::string, double> parameters = {};
     uint64_t memory_budget = 0;  ///< Most bytes of device memory; 0: half the device's heap.
     bool keep_samples = false;   ///< Fill Frame::samples.
     bool count_ranges = false;   ///< Count the ranges that the shadow tests look at and test; costs some percent.

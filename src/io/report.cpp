@@ -2,6 +2,7 @@
 // What a frame was rendered with and what it cost, as JSON and as the text attributes of an EXR header.
 #include "io/report.hpp"
 
+#include <algorithm>
 #include <gnomon/version.hpp>
 
 namespace gnomon::io {
@@ -18,7 +19,11 @@ Json settings_json(const RenderSettings& settings) {
         {"method", settings.method}, {"layout", settings.layout},
         {"raster", settings.raster}, {"memory_budget", settings.memory_budget},
     };
-    for (const auto& [name, value] : settings.parameters) json[name] = value;
+    for (const auto& [name, value] : settings.parameters) {
+        std::string key = name;
+        std::replace(key.begin(), key.end(), '-', '_');
+        json[key] = value;
+    }
     return json;
 }
 

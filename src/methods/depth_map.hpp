@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maps of N depths per texel, one in each stratum of the shutter: time-dependent shadow maps, whose texels are sampled anywhere
-// and anytime in their stratum, and the accumulation buffer's hard shadow maps, each of one time. Based on: Akenine-Moller et
-// al. 2007, "Stochastic rasterization using time-continuous triangles", section 5; Haeberli and Akeley 1990, "The accumulation
-// buffer: hardware support for high-quality rendering".
+// and anytime in their stratum, and the accumulation buffer's hard shadow maps, each of one time.
+// Sources: Akenine-Moller et al. 2007, section 5; Andersson et al. 2015, section 5.1; Haeberli and Akeley 1990.
 #pragma once
 
 #include "methods/method.hpp"
@@ -16,8 +15,7 @@ std::vector<Parameter> accumulate_parameters();
 
 enum class DepthMapKind {
     stochastic,    ///< tsm
-    dynamic_bias,  ///< Samples also hold how far their surface moves along the light's axis (Andersson et al. 2015,
-                   ///< section 5.1).
+    dynamic_bias,  ///< Samples also hold how far their surface moves along the light's axis.
     slices,        ///< accumulate
 };
 

@@ -158,7 +158,7 @@ TEST_F(DepthMapTest, SamplesAreWhatTheOracleSees) {
 // A level square that rises by `rise` metres during the shutter toward a light straight above it, which nothing shadows. A hit
 // at time t meets the sample that its texel has in the same stratum, at time s: false shadow, where the square is higher then
 // by more than the bias: rise (s - t) > bias.
-class RisingSquareTest : public StageTest {
+class RisingSquareTest : public StageTest, public testing::WithParamInterface<LightKind> {
 protected:
     static constexpr uint32_t kSpp = 4, kSide = 32;
     static constexpr double kRise = 2.0;
@@ -173,7 +173,10 @@ protected:
         camera.kind = CameraKind::orthographic;
         camera.xmag = camera.ymag = 3.0;
         scene.add(camera, {{glm::dvec3(0, 10, 0), down}});
-        scene.add(Light{}, {{glm::dvec3(0), down}});
+        Light light;
+        light.kind = GetParam();
+        light.outer_cone = 0.9f;
+        scene.add(light, {{glm::dvec3(0, 12, 0), down}});
         settings.width = settings.height = kSide;
         settings.spp = kSpp;
         settings.seed = 11;
@@ -197,7 +200,7 @@ protected:
     RenderSettings settings;
 };
 
-TEST_F(RisingSquareTest, ShadowsItselfAsOftenAsTheTimesAreMismatched) {
+TEST_P(RisingSquareTest, ShadowsItselfAsOftenAsTheTimesAreMismatched) {
     constexpr double kSamples = double(kSide) * kSide * kSpp;
     for (const double bias : {0.0, 0.1, 0.3, 0.6}) {
         const Frame frame = render("tsm", bias);
@@ -212,10 +215,13 @@ TEST_F(RisingSquareTest, ShadowsItselfAsOftenAsTheTimesAreMismatched) {
     }
 }
 
-TEST_F(RisingSquareTest, DoesNotShadowItselfWhenDepthsAreMovedToItsTime) {
+TEST_P(RisingSquareTest, DoesNotShadowItselfWhenDepthsAreMovedToItsTime) {
     EXPECT_EQ(shadowed(render("exact", 0.0)), 0u);
     EXPECT_EQ(shadowed(render("tsm-dynamic-bias", 1e-4)), 0u);
 }
+
+INSTANTIATE_TEST_SUITE_P(Lights, RisingSquareTest, testing::Values(LightKind::directional, LightKind::spot),
+                         [](const auto& tested) { return tested.param == LightKind::spot ? "spot" : "directional"; });
 
 /// Samples of the shipped scene whose light differs from that of the exact method.
 class DepthMapCubesTest : public TwoCubes<> {

@@ -13,6 +13,7 @@
 #include "io/atomic_file.hpp"
 #include "io/exr.hpp"
 #include "io/png.hpp"
+#include "methods/method.hpp"
 #include "progress.hpp"
 #include "render_options.hpp"
 
@@ -138,6 +139,9 @@ void add_render(CLI::App& app, Invocation& invocation) {
             warn_if_unused(*command, "--exposure", "--png");
             warn_if_unused(*command, "--fps", "--frames");
             warn_if_unused(*command, "--shutter-angle", "--frames");
+            const std::string& method = options->settings.method;
+            if (command->count("--layout") > 0 && !find_method(method).has_s_buffer())
+                throw Error(ErrorKind::usage, "method " + method + " has no S-buffer", "--layout", "leave it out");
             return render(*options, invocation.quiet);
         };
     });

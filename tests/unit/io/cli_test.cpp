@@ -68,6 +68,8 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWith2) {
                                                {"render", "a.gltf", "-o", "a.exr", "--size=0x1"},
                                                {"render", "a.gltf", "-o", "a.exr", "--shutter=1:0"},
                                                {"render", "a.gltf", "-o", "a.exr", "--raster=magic"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--method=tsm", "--layout=array"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--method=tsm", "--bias=-1"},
                                                {"render", "a.gltf", "-o", "a.exr", "--quiet", "--verbose"},
                                                {"render", "a.gltf", "-o", "a.exr", "--camera=none"},
                                                {"render", "a.gltf", "-o", "a.exr", "--animation=none_of_these"},
