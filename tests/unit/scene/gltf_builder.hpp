@@ -34,7 +34,7 @@ public:
 
     /// Writes a file into the folder and returns its path.
     std::filesystem::path write(const std::string& name, const std::string& bytes) const {
-        const std::filesystem::path path = path_ / name;
+        std::filesystem::path path = path_ / name;
         std::ofstream(path, std::ios::binary) << bytes;
         return path;
     }
