@@ -258,6 +258,22 @@ TEST_F(RecorderTest, KeepsWhatItRecordedAlive) {
     EXPECT_THAT(download_vector<float>(device, result, 8), testing::Each(8.0f));
 }
 
+// Command buffers are lent: one comes back from a recorder that never ran, and two are out at a time.
+TEST_F(RecorderTest, CommandBuffersComeBackEmpty) {
+    Buffer numbers = device.allocate("numbers", 16);
+    recorder.fill("fill", numbers, 1);
+    {
+        Recorder never_run(device);
+        never_run.fill("fill", numbers, 2);
+    }
+    recorder.submit();
+    Recorder next(device);
+    next.fill("fill", numbers, 3, 8);
+    next.submit();
+    EXPECT_EQ(download_vector<uint32_t>(device, numbers, 4), (std::vector<uint32_t>{1, 1, 3, 3}));
+    EXPECT_THAT(device.validation_messages(), testing::IsEmpty());
+}
+
 TEST_F(RecorderTest, MovesItsPrograms) {
     Program moved = std::move(scale);
     EXPECT_FALSE(scale);
