@@ -27,6 +27,8 @@ make_scenes all -o FOLDER              writes the scenes of the scenes folder
   two-cubes      --triangles N of each cube (6000)
   random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
   pillars        --columns N (7)
+  crossing-quads
+  receding-quads
   tube           --triangles N (70000)  --pixels P (10)
 )";
 
@@ -110,6 +112,10 @@ void run(const std::string& scene, Options options) {
         makers::PillarsOptions o;
         options.take("--columns", o.columns);
         make = [=] { makers::make_pillars(output, o); };
+    } else if (scene == "crossing-quads") {
+        make = [=] { makers::make_crossing_quads(output); };
+    } else if (scene == "receding-quads") {
+        make = [=] { makers::make_receding_quads(output); };
     } else if (scene == "tube") {
         makers::TubeOptions o;
         options.take("--triangles", o.triangles);

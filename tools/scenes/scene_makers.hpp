@@ -50,6 +50,12 @@ struct TubeOptions {
 };
 void make_tube(const std::filesystem::path& path, const TubeOptions& options = {});
 
+/// Two level quads over a plane, at two heights, that fly past each other at right angles: three times their side in a shutter.
+void make_crossing_quads(const std::filesystem::path& path);
+
+/// Two level quads below a spot light, one rising toward it and one sinking, by more than their height over the plane.
+void make_receding_quads(const std::filesystem::path& path);
+
 /// The small instances that the scenes folder holds, as figure.gltf, two-cubes.gltf and so on.
 void make_all(const std::filesystem::path& folder);
 
