@@ -14,6 +14,7 @@
 #include "command.hpp"
 #include "io/exr.hpp"
 #include "io/image_compare.hpp"
+#include "io/perceived_error.hpp"
 #include "io/png.hpp"
 #include "options.hpp"
 
@@ -27,12 +28,21 @@ using io::ExrImage;
 const std::map<std::string, io::Metric> kMetrics = {
     {"rmse", io::Metric::rmse}, {"max", io::Metric::max}, {"psnr", io::Metric::psnr}, {"relmse", io::Metric::rel_mse}};
 
+/// What the pictures look like, where both have R, G and B.
+struct PerceivedError {
+    std::vector<double> flip;  ///< Per pixel.
+    double flip_mean = 0.0;
+    double flip_max = 0.0;
+    double ssim = 0.0;
+};
+
 struct CompareOptions {
     std::string a;
     std::string b;
     std::string json;
     std::string diff;
     std::string diff_png;
+    std::string flip_png;
     double exposure = 0.0;
     std::vector<std::string> channels;
     std::string metric = "rmse";
@@ -99,8 +109,38 @@ std::vector<Channel> difference_to_show(std::vector<Channel> channels) {
     return shown;
 }
 
+std::optional<PerceivedError> perceived_error(const ExrImage& a, const ExrImage& b, const std::vector<std::string>& names,
+                                              double exposure) {
+    for (const char* name : {"R", "G", "B"})
+        if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
+    const auto shown = io::shown_picture(a.channels, a.width, a.height, exposure);
+    const auto reference = io::shown_picture(b.channels, b.width, b.height, exposure);
+    PerceivedError error;
+    error.flip = io::flip(*shown, *reference);
+    for (const double value : error.flip) {
+        error.flip_mean += value / static_cast<double>(error.flip.size());
+        error.flip_max = std::max(error.flip_max, value);
+    }
+    error.ssim = io::ssim(*shown, *reference);
+    return error;
+}
+
+/// Is what was asked for by name worse than the threshold? Nothing for the metrics of single channels.
+std::optional<bool> is_over(const PerceivedError& error, const std::string& metric, double threshold) {
+    if (metric == "flip") return error.flip_mean > threshold;
+    if (metric == "ssim") return error.ssim < threshold;
+    return std::nullopt;
+}
+
+void write_flip(const std::string& path, const ExrImage& image, const PerceivedError& error) {
+    std::vector<uint8_t> grey;
+    for (const double value : error.flip) grey.insert(grey.end(), 3, static_cast<uint8_t>(std::lround(255.0 * value)));
+    io::write_png(path, image.width, image.height, grey);
+}
+
 /// The document "gnomon.compare". psnr is null where it is infinite, which is where the images are equal.
-io::Json compare_json(const CompareOptions& options, const ExrImage& a, const std::vector<ChannelError>& errors, bool over) {
+io::Json compare_json(const CompareOptions& options, const ExrImage& a, const std::vector<ChannelError>& errors,
+                      const std::optional<PerceivedError>& perceived, bool over) {
     io::Json json = io::document("compare");
     json["a"] = options.a;
     json["b"] = options.b;
@@ -115,6 +155,13 @@ io::Json compare_json(const CompareOptions& options, const ExrImage& a, const st
                                     {"relmse", error.rel_mse},
                                     {"compared", error.compared},
                                     {"not_finite", error.not_finite}});
+    if (perceived) {
+        json["flip"] = {{"mean", perceived->flip_mean},
+                        {"max", perceived->flip_max},
+                        {"pixels_per_degree", io::kPixelsPerDegree},
+                        {"exposure", options.exposure}};
+        json["ssim"] = perceived->ssim;
+    }
     json["metric"] = options.metric;
     json["threshold"] = options.threshold ? io::Json(*options.threshold) : io::Json(nullptr);
     json["over_threshold"] = over;
@@ -134,6 +181,7 @@ void print_table(const std::vector<ChannelError>& errors) {
 int compare(const CompareOptions& options) {
     if (!options.diff.empty()) check_ending(options.diff, ".exr", "--diff");
     if (!options.diff_png.empty()) check_ending(options.diff_png, ".png", "--diff-png");
+    if (!options.flip_png.empty()) check_ending(options.flip_png, ".png", "--flip-png");
 
     const ExrImage a = io::read_exr(options.a);
     const ExrImage b = io::read_exr(options.b);
@@ -150,17 +198,30 @@ int compare(const CompareOptions& options) {
         if (errors.back().not_finite > 0)
             spdlog::warn("channel {} has {} values that are not finite; the errors leave them out", name,
                          errors.back().not_finite);
-        over = over || (options.threshold && io::is_over(errors.back(), kMetrics.at(options.metric), *options.threshold));
+        const auto metric = kMetrics.find(options.metric);
+        over = over || (options.threshold && metric != kMetrics.end() &&
+                        io::is_over(errors.back(), metric->second, *options.threshold));
     }
+    const std::optional<PerceivedError> perceived = perceived_error(a, b, names, options.exposure);
+    if (!perceived && (!options.flip_png.empty() || !kMetrics.contains(options.metric)))
+        throw Error(ErrorKind::input, "FLIP and SSIM need the channels R, G and B", options.a + " and " + options.b,
+                    "compare images that have them, and do not leave them out");
+    if (perceived && options.threshold) over = over || is_over(*perceived, options.metric, *options.threshold).value_or(false);
 
+    if (!options.flip_png.empty()) write_flip(options.flip_png, a, *perceived);
     if (!options.diff.empty() || !options.diff_png.empty()) {
         const std::vector<Channel> channels = difference(a, b, names);
         if (!options.diff.empty()) io::write_exr(options.diff, a.width, a.height, channels, {});
         if (!options.diff_png.empty())
             io::write_png(options.diff_png, a.width, a.height, io::tone_map(difference_to_show(channels), options.exposure));
     }
-    if (!options.json.empty()) write_json(options.json, compare_json(options, a, errors, over));
-    if (options.json != "-") print_table(errors);
+    if (!options.json.empty()) write_json(options.json, compare_json(options, a, errors, perceived, over));
+    if (options.json != "-") {
+        print_table(errors);
+        if (perceived)
+            std::cout << fmt::format("FLIP {:.6g} mean, {:.6g} max; SSIM {:.6g}\n", perceived->flip_mean, perceived->flip_max,
+                                     perceived->ssim);
+    }
     return over ? kOverThreshold : kDone;
 }
 
@@ -176,9 +237,10 @@ void add_compare(CLI::App& app, Invocation& invocation) {
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
-    command->add_option("--metric", options->metric, "What the threshold is for: rmse, max, psnr, relmse")
+    command
+        ->add_option("--metric", options->metric, "What the threshold is for: rmse, max, psnr, relmse, flip (its mean), ssim")
         ->type_name("NAME")
-        ->check(CLI::IsMember(kMetrics).description(""))
+        ->check(CLI::IsMember({"rmse", "max", "psnr", "relmse", "flip", "ssim"}).description(""))
         ->capture_default_str();
     command
         ->add_option_function<std::string>(
@@ -186,22 +248,22 @@ void add_compare(CLI::App& app, Invocation& invocation) {
             [options](const std::string& text) {
                 options->threshold = parse_number(text, "--threshold", 0.0, std::numeric_limits<double>::max());
             },
-            "Exit code 8 if a channel is above it (for psnr: below it)")
+            "Exit code 8 if a channel or the picture is above it (for psnr and ssim: below it)")
         ->type_name("VALUE");
     command->add_option("--diff", options->diff, "Image of A - B")->type_name("OUT.exr");
     command->add_option("--diff-png", options->diff_png, "Image of |A - B|, sRGB 8 bit")->type_name("OUT.png");
+    command->add_option("--flip-png", options->flip_png, "FLIP of each pixel, 0 black, 1 white")->type_name("OUT.png");
     command
         ->add_option_function<std::string>(
             "--exposure",
             [options](const std::string& text) { options->exposure = parse_number(text, "--exposure", -100.0, 100.0); },
-            "--diff-png is brighter by 2^EV")
+            "Pictures are shown brighter by 2^EV: --diff-png, FLIP and SSIM")
         ->type_name("EV")
         ->default_str("0");
     command->add_option("--json", options->json, "Write it as JSON; - for stdout, instead of the table")
         ->type_name("FILE.json");
     command->callback([&invocation, command, options] {
         invocation.run = [command, options] {
-            warn_if_unused(*command, "--exposure", "--diff-png");
             warn_if_unused(*command, "--metric", "--threshold");
             return compare(*options);
         };

@@ -73,6 +73,29 @@ TEST_F(CliCompareTest, DifferenceImages) {
     EXPECT_EQ(content_of(folder / "d.png").substr(1, 3), "PNG");
 }
 
+// Black and white: FLIP 0.9674 and SSIM 1e-4 / 1.0001 (see perceived_error_test.cpp).
+TEST_F(CliCompareTest, WhatPicturesLookLike) {
+    for (const auto& [name, value] : {std::pair("black.exr", 0.0f), std::pair("white.exr", 1.0f)}) {
+        const std::vector<float> values(12 * 12, value);
+        io::write_exr(folder / name, 12, 12, std::vector<Channel>{{"R", values}, {"G", values}, {"B", values}}, {});
+    }
+    const CommandResult result = compare({"white.exr", "black.exr", "--json=-", "--flip-png=f.png"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json document = json::parse(result.out);
+    EXPECT_NEAR(document["flip"]["mean"].get<double>(), 0.9674, 5e-4);
+    EXPECT_NEAR(document["ssim"].get<double>(), 1e-4 / 1.0001, 1e-9);
+    EXPECT_EQ(content_of(folder / "f.png").substr(1, 3), "PNG");
+    EXPECT_THAT(compare({"white.exr", "black.exr"}).out, HasSubstr("FLIP 0.967"));
+    EXPECT_EQ(compare({"white.exr", "black.exr", "--metric=flip", "--threshold=0.97"}).exit_code, 0);
+    EXPECT_EQ(compare({"white.exr", "black.exr", "--metric=flip", "--threshold=0.96"}).exit_code, 8);
+    EXPECT_EQ(compare({"white.exr", "black.exr", "--metric=ssim", "--threshold=0.5"}).exit_code, 8);
+    EXPECT_EQ(compare({"white.exr", "white.exr", "--metric=ssim", "--threshold=0.999"}).exit_code, 0);
+
+    const CommandResult without = compare({"a.exr", "b.exr", "--metric=flip", "--threshold=1"});
+    EXPECT_EQ(without.exit_code, 3);
+    EXPECT_THAT(without.err, HasSubstr("FLIP and SSIM need the channels R, G and B"));
+}
+
 TEST_F(CliCompareTest, DifferentSizesExitWith3) {
     const CommandResult result = compare({"a.exr", "wide.exr"});
     EXPECT_EQ(result.exit_code, 3);

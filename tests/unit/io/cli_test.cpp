@@ -77,7 +77,7 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWith2) {
                                                {"render", "a.gltf", "-o", "a.exr", "--frames", "0-1"},
                                                {"render", "a.gltf", "-o", "####.exr", "--frames", "0-1", "--shutter", "0:1"},
                                                {"compare", "a.exr"},
-                                               {"compare", "a.exr", "b.exr", "--metric=ssim"},
+                                               {"compare", "a.exr", "b.exr", "--metric=vmaf"},
                                                {"compare", "a.exr", "b.exr", "--threshold=-1"},
                                                {"compare", "a.exr", "b.exr", "--diff=d.png"}}) {
         const CommandResult result = run(arguments);
