@@ -201,9 +201,9 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         LightSide& side = sides[i];
         side.bins = bin_prisms(device, programs, geometry, side.view, method.light_cells(contexts[i]));
         side.map = method.make_map(contexts[i], side.bins);
-        const std::string light = "." + std::to_string(side.light_ix);
-        frame.stats.counts["bin_entries" + light] = side.bins.entry_count;
-        for (const auto& [name, count] : side.map->counts()) frame.stats.counts[name + light] = count;
+        const std::string light = std::to_string(side.light_ix);
+        frame.stats.counts["bin_entries." + light] = side.bins.entry_count;
+        for (const auto& [name, count] : side.map->counts()) frame.stats.counts[name + "." + light] = count;
         frame.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
         for (const auto& [name, value] : side.map->effective()) frame.effective[name] = value;
     }
