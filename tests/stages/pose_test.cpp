@@ -2,7 +2,6 @@
 // The pose stage computes the bits of posed_positions, which the oracle confirms.
 #include "stages/pose.hpp"
 
-
 #include "oracle/posed.hpp"
 #include "stage_test.hpp"
 #include "support/assets.hpp"

@@ -18,7 +18,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kScenes[] = {"figure", "two-cubes", "random-cubes", "pillars", "tube", "crossing-quads", "receding-quads"};
+constexpr const char* kScenes[] = {"figure", "two-cubes",      "random-cubes",  "pillars",
+                                   "tube",   "crossing-quads", "receding-quads"};
 
 class File : public testing::TestWithParam<const char*> {
 protected:
