@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/png.hpp"
+
 namespace gnomon::io {
 namespace {
 
@@ -14,7 +16,7 @@ using Plane = std::vector<double>;
 
 constexpr double kPi = std::numbers::pi;
 
-// sRGB primaries, D65 (IEC 61966-2-1), and its inverse.
+// sRGB primaries, D65 (IEC 61966-2-1).
 constexpr double kToXyz[3][3] = {{0.4124, 0.3576, 0.1805}, {0.2126, 0.7152, 0.0722}, {0.0193, 0.1192, 0.9505}};
 
 Triple times(const double (&m)[3][3], const Triple& v) {
@@ -187,12 +189,11 @@ std::array<Plane, 3> planes_ycxcz(const ShownPicture& picture) {
     return planes;
 }
 
-double encoded(double linear) { return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055; }
-
 Plane luma_of(const ShownPicture& p) {
     Plane luma;
     for (size_t i = 0; i < p.rgb[0].size(); ++i)
-        luma.push_back(0.2126 * encoded(p.rgb[0][i]) + 0.7152 * encoded(p.rgb[1][i]) + 0.0722 * encoded(p.rgb[2][i]));
+        luma.push_back(0.2126 * srgb_encoded(p.rgb[0][i]) + 0.7152 * srgb_encoded(p.rgb[1][i]) +
+                       0.0722 * srgb_encoded(p.rgb[2][i]));
     return luma;
 }
 

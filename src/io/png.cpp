@@ -14,11 +14,14 @@
 
 namespace gnomon::io {
 
+double srgb_encoded(double linear) {
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
 uint8_t srgb8(double linear) {
     if (!(linear > 0.0)) return 0;
     if (linear >= 1.0) return 255;
-    const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
-    return static_cast<uint8_t>(std::lround(encoded * 255.0));
+    return static_cast<uint8_t>(std::lround(srgb_encoded(linear) * 255.0));
 }
 
 std::vector<uint8_t> tone_map(std::span<const Channel> channels, double exposure_ev) {

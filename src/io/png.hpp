@@ -10,7 +10,10 @@
 
 namespace gnomon::io {
 
-/// The sRGB transfer function (IEC 61966-2-1), rounded to 8 bits. Below 0 and NaN give 0, above 1 gives 255.
+/// The sRGB transfer function (IEC 61966-2-1) of values in [0, 1].
+double srgb_encoded(double linear);
+
+/// The same, rounded to 8 bits. Below 0 and NaN give 0, above 1 gives 255.
 uint8_t srgb8(double linear);
 
 /// Channels R, G and B times 2^exposure_ev as 8-bit sRGB, 3 bytes per pixel. Premultiplied colour is over black as it is.

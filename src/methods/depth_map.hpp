@@ -9,15 +9,14 @@
 
 namespace gnomon {
 
-/// Parameters map-spp and bias, or slices and bias.
-std::vector<Parameter> tsm_parameters();
-std::vector<Parameter> accumulate_parameters();
-
 enum class DepthMapKind {
     stochastic,    ///< tsm
     dynamic_bias,  ///< Samples also hold how far their surface moves along the light's axis.
     slices,        ///< accumulate
 };
+
+/// map-spp or slices, and bias.
+std::vector<Parameter> depth_map_parameters(DepthMapKind kind);
 
 /// How the light's view is sampled: map-spp or slices, else as often as the camera's image or 3000 times; with a seed of the
 /// light's own.

@@ -25,20 +25,24 @@ uint32_t segment_cells(const LightContext& light) { return light.geometry.segmen
 // Ranges may be cut where a cell ends: whatever is fast.
 uint32_t finer_cells(const LightContext& light) { return light_cells(light.geometry.segment_count, light.still); }
 
-// A map is sampled as the camera's image is.
-template <DepthMapKind kKind>
-uint32_t map_cells(const LightContext& light) {
-    return camera_cells(map_sampling(light, kKind).spp, light.geometry.segment_count, light.still);
-}
-
 std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
     return std::make_unique<SBuffer>(light.device, light.programs, light.geometry, bins, light.layout, "raster/" + light.raster,
                                      light.view.orthographic);
 }
 
-template <DepthMapKind kKind>
-std::unique_ptr<ShadowMap> make_depth_map(const LightContext& light, const Bins& bins) {
-    return std::make_unique<DepthMap>(light, bins, kKind);
+// Its prisms are listed as the camera's are, since its view is sampled as the camera's image is.
+Method depth_map_method(const std::string& name, const std::string& summary, const std::string& source, DepthMapKind kind) {
+    return {.name = name,
+            .summary = summary,
+            .source = source,
+            .shadow_stage = "methods/depth_map/shadow",
+            .parameters = depth_map_parameters(kind),
+            .light_cells =
+                [kind](const LightContext& light) {
+                    return camera_cells(map_sampling(light, kind).spp, light.geometry.segment_count, light.still);
+                },
+            .make_map = [kind](const LightContext& light,
+                               const Bins& bins) { return std::make_unique<DepthMap>(light, bins, kind); }};
 }
 
 std::string number(double value) {
@@ -71,27 +75,12 @@ const std::vector<Method>& methods() {
          .exit_depth = true,
          .light_cells = segment_cells,
          .make_map = make_s_buffer},
-        {.name = "tsm",
-         .summary = "a time-dependent shadow map: one depth per texel and stratum of time, constant bias",
-         .source = "Akenine-Moller et al. 2007, 5",
-         .shadow_stage = "methods/depth_map/shadow",
-         .parameters = tsm_parameters(),
-         .light_cells = map_cells<DepthMapKind::stochastic>,
-         .make_map = make_depth_map<DepthMapKind::stochastic>},
-        {.name = "tsm-dynamic-bias",
-         .summary = "tsm, its depths moved to the hit's time",
-         .source = "Andersson et al. 2015, 5.1, eq. 12",
-         .shadow_stage = "methods/depth_map/shadow",
-         .parameters = tsm_parameters(),
-         .light_cells = map_cells<DepthMapKind::dynamic_bias>,
-         .make_map = make_depth_map<DepthMapKind::dynamic_bias>},
-        {.name = "accumulate",
-         .summary = "hard shadow maps of many times; a hit is tested against that of the nearest",
-         .source = "Haeberli and Akeley 1990",
-         .shadow_stage = "methods/depth_map/shadow",
-         .parameters = accumulate_parameters(),
-         .light_cells = map_cells<DepthMapKind::slices>,
-         .make_map = make_depth_map<DepthMapKind::slices>},
+        depth_map_method("tsm", "a time-dependent shadow map: one depth per texel and stratum of time, constant bias",
+                         "Akenine-Moller et al. 2007, 5", DepthMapKind::stochastic),
+        depth_map_method("tsm-dynamic-bias", "tsm, its depths moved to the hit's time", "Andersson et al. 2015, 5.1, eq. 12",
+                         DepthMapKind::dynamic_bias),
+        depth_map_method("accumulate", "hard shadow maps of many times; a hit is tested against that of the nearest",
+                         "Haeberli and Akeley 1990", DepthMapKind::slices),
     };
     return all;
 }

@@ -50,8 +50,8 @@ struct Method {
     std::string name;
     std::string summary;
     std::string source;  ///< Paper and section.
-    std::vector<std::string> rasters =
-        {};  ///< Stages raster/<name> whose ranges the test understands, the default first; none: no S-buffer.
+    /// Stages raster/<name> whose ranges the test understands, the default first; none: no S-buffer.
+    std::vector<std::string> rasters = {};
     std::string shadow_stage;  ///< The test; compiled for each layout where there is an S-buffer.
     bool exit_depth = false;   ///< A range has a depth at its exit.
     std::vector<Parameter> parameters = {};
