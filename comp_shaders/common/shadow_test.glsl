@@ -118,6 +118,11 @@ void write_lit(uint i, ShadowTest test, bool shadowed) {
     }
 }
 
+// Of methods whose visibility is a share: 0 to 1, as float bits, in a word of the slot for each light. Asked once, where the hit's list is.
+void write_visibility(ShadowTest test, float visibility) {
+    if (test.here) lit[test.slot] = floatBitsToUint(visibility);
+}
+
 void add_shadow_counts(uint i, uint visited, uint tested, bool was_cast) {
     uint all_visited = subgroupAdd(visited);
     uint all_tested = subgroupAdd(tested);

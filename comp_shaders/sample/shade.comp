@@ -17,6 +17,7 @@ layout(constant_id = 2) const bool kDepths = false;
 layout(constant_id = 3) const bool kTextures = false;
 layout(constant_id = 4) const bool kSmooth = false;      // Vertices have normals.
 layout(constant_id = 5) const bool kLightsMove = false;
+layout(constant_id = 6) const bool kFractional = false;  // Visibility is a share: see write_visibility.
 layout(binding = 0) uniform usamplerBuffer hits;
 layout(binding = 1) uniform usamplerBuffer lit;
 layout(binding = 2) uniform usamplerBuffer triangles;
@@ -83,6 +84,11 @@ vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
     return color_kind.xyz * (falloff * max(dot(normal, l), 0.0));
 }
 
+// The share of the light that reaches the hit at `place`.
+float visibility(int place, uint light) {
+    return kFractional ? uintBitsToFloat(texelFetch(lit, int(light * params.lit_stride) + place).x) : float((texelFetch(lit, place).x >> light) & 1u);
+}
+
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     ViewGrid grid = params.grid;
@@ -135,11 +141,9 @@ void main() {
                 vec4 sampled = sample_texture(textured ? image : uvec4(0u, 1u, 1u, 0u), uv);
                 albedo *= textured ? sampled.xyz : vec3(1.0);
             }
-            uint mask = texelFetch(lit, int(place)).x;
             for (uint light = 0u; light < params.light_count; ++light) {
-                bool visible = ((mask >> light) & 1u) != 0u;
                 vec3 arriving = incoming(light, h, position, normal);
-                color += visible ? albedo * arriving * (1.0 / 3.14159265358979) : vec3(0.0);
+                color += visibility(int(place), light) * albedo * arriving * (1.0 / 3.14159265358979);
             }
             float metres = kOrthographic ? h.depth : -1.0 / h.depth;
             hit_count += 1.0;
@@ -155,14 +159,18 @@ void main() {
         film[kFilmDepth * plane + at] = depth_sum;
     }
     for (uint light = 0u; light < params.light_count; ++light) {
-        uint visible = 0u;
+        uint sums = (kFilmVisibility + light) * plane + at, squares = sums + params.light_count * plane;
+        float sum = film[sums];
+        float sum_of_squares = kFractional ? film[squares] : 0.0;
         uint stratum = 0u;
         do {
             int place = int((tile_in_batch * params.stratum_count + stratum) * kTileTexels + texel);
-            bool hit = texelFetch(hits, place).x != kNone;
-            visible += hit ? (texelFetch(lit, place).x >> light) & 1u : 0u;
+            float visible = texelFetch(hits, place).x != kNone ? visibility(place, light) : 0.0;
+            sum += visible;
+            sum_of_squares += visible * visible;
             ++stratum;
         } while (stratum < params.stratum_count);
-        if (inside) film[(kFilmVisibility + light) * plane + at] += float(visible);
+        if (inside) film[sums] = sum;
+        if (inside && kFractional) film[squares] = sum_of_squares;
     }
 }

@@ -146,6 +146,7 @@ struct ShadeParams {
     uint seed;
     uint light_count;
     uint key_count;
+    uint lit_stride;  // Slots from one light's visibility to the next; of fractional visibility only.
 };
 
 GN_END

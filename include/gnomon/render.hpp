@@ -34,7 +34,7 @@ struct SampleRecord {
     static constexpr uint32_t kMiss = 0xffffffffu;
     uint32_t triangle = kMiss;  ///< Into Scene::triangles.
     float depth = 0.0f;         ///< Metres along the view axis.
-    uint32_t lit = 0;           ///< Bit i: light i reaches the hit.
+    uint32_t lit = 0;           ///< Bit i: light i reaches the hit; half of it or more, of a method that gives shares.
 };
 
 struct Channel {
@@ -63,6 +63,7 @@ struct Frame {
     uint32_t light_count = 0;
     std::vector<Channel> channels;  ///< R G B A Z, then visibility.<i> and visibility_var.<i> for each light.
     std::vector<SampleRecord> samples;
+    std::vector<float> sample_visibility;  ///< Of methods that give shares: index sample * light_count + light.
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
 };

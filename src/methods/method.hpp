@@ -54,6 +54,7 @@ struct Method {
     std::vector<std::string> rasters = {};
     std::string shadow_stage;  ///< The test; compiled for each layout where there is an S-buffer.
     bool exit_depth = false;   ///< A range has a depth at its exit.
+    bool fractional = false;   ///< Visibility is a share of the light, not a bit.
     std::vector<Parameter> parameters = {};
 
     /// In how many cells of time the light's prisms are listed.

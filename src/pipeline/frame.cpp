@@ -75,7 +75,7 @@ Channel channel(const std::string& name, const float* plane, size_t pixels) {
 }
 
 // Means over samples and hits (cli.md, Meaning of the output).
-void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp) {
+void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp, bool fractional) {
     size_t pixels = size_t(frame.width) * frame.height;
     const char* names[] = {"R", "G", "B", "A", "Z"};
     for (uint32_t plane = 0; plane < shared::kFilmVisibility; ++plane) {
@@ -92,28 +92,39 @@ void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp) {
     for (uint32_t light = 0; light < frame.light_count; ++light) {
         Channel mean =
             channel("visibility." + std::to_string(light), film.data() + (shared::kFilmVisibility + light) * pixels, pixels);
+        const size_t squares = (shared::kFilmVisibility + frame.light_count + light) * pixels;
         Channel error{"visibility_var." + std::to_string(light), std::vector<float>(pixels)};
         for (size_t i = 0; i < pixels; ++i) {
             double n = hits[i];
             double p = n > 0.0 ? mean.values[i] / n : 0.0;
             mean.values[i] = static_cast<float>(p);
-            error.values[i] = n > 0.0 ? static_cast<float>(std::sqrt(p * (1.0 - p) / std::max(n - 1.0, 1.0))) : 0.0f;
+            double spread = n > 0.0 ? (fractional ? film[squares + i] / n : p) - p * p : 0.0;
+            error.values[i] = static_cast<float>(std::sqrt(std::max(0.0, spread) / std::max(n - 1.0, 1.0)));
         }
         frame.channels.push_back(std::move(mean));
         frame.channels.push_back(std::move(error));
     }
 }
 
-void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp) {
+void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp,
+                  bool fractional) {
     frame.samples.resize(size_t(frame.width) * frame.height * spp);
+    if (fractional) frame.sample_visibility.resize(frame.samples.size() * frame.light_count);
     std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit();
+    std::vector<std::vector<float>> visibility;
+    for (uint32_t light = 0; fractional && light < frame.light_count; ++light)
+        visibility.push_back(sampler.batch_visibility(light));
     std::vector<float> depths = sampler.batch_depths();
     for (size_t slot = 0; slot < hits.size(); ++slot) {
         const auto [x, y, s] = slot_sample(batch, grid, slot);
         if (x >= frame.width || y >= frame.height || hits[slot] == shared::kNone) continue;
         uint32_t lights = frame.light_count == 32 ? ~0u : (1u << frame.light_count) - 1u;
-        frame.samples[(size_t(y) * frame.width + x) * spp + s] = {hits[slot] & ~shared::kReversed, depths[slot],
-                                                                  lit[slot] & lights};
+        const size_t place = (size_t(y) * frame.width + x) * spp + s;
+        frame.samples[place] = {hits[slot] & ~shared::kReversed, depths[slot], fractional ? 0u : lit[slot] & lights};
+        for (uint32_t light = 0; light < visibility.size(); ++light) {
+            frame.sample_visibility[place * frame.light_count + light] = visibility[light][slot];
+            frame.samples[place].lit |= visibility[light][slot] >= 0.5f ? 1u << light : 0u;
+        }
     }
 }
 
@@ -210,13 +221,14 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
 
     // The samples, a batch at a time. An S-buffer that fits is filled once, else in bands for every batch.
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
-    uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget);
+    uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget, method.fractional ? 4 * frame.light_count : 0);
     Sampler sampler(device, programs, geometry, view, bins,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
                      .seed = settings.seed,
                      .light_count = frame.light_count,
                      .most_slots = most_slots,
+                     .fractional = method.fractional,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
     uint64_t left = budget - std::min(budget, device.live_bytes());
@@ -233,9 +245,9 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         sampler.trace(batches[b]);
         for (LightSide& side : sides) test_shadows(sampler, side, batches[b], settings.spp, least_tolerance(bounds));
         sampler.shade(lights, !lights_still(poses));
-        if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp);
+        if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);
     }
-    resolve(frame, sampler.film(), settings.spp);
+    resolve(frame, sampler.film(), settings.spp, method.fractional);
     if (progress) progress(1.0);
 
     std::map<std::string, uint64_t> counts = std::move(frame.stats.counts);

@@ -52,10 +52,12 @@ uint32_t light_cells(uint32_t segments, bool still) {
     return std::max(1u, kLightCells / segments) * segments;
 }
 
-uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget) {
+uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget,
+                     uint64_t visibility_bytes) {
     uint64_t all = uint64_t(grid.tiles_x) * grid.tiles_y * spp * shared::kTileTexels;
     uint64_t left = budget - std::min(budget, device.live_bytes());
-    uint64_t most = std::min({kBatchSlots, all, left / 4 / kSlotBytes, device.limits().max_storage_range / 8});
+    uint64_t most =
+        std::min({kBatchSlots, all, left / 4 / (kSlotBytes + visibility_bytes), device.limits().max_storage_range / 8});
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }
 

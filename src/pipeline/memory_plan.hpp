@@ -22,8 +22,10 @@ uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);
 /// Cells of time of a light's S-buffer whose ranges may be cut where a cell ends.
 uint32_t light_cells(uint32_t segments, bool still);
 
-/// Most slots of one batch, so that its buffers fit into the budget and into one binding.
-uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget);
+/// Most slots of one batch, so that its buffers fit into the budget and into one binding. visibility_bytes: of a slot, of
+/// methods that give shares.
+uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget,
+                     uint64_t visibility_bytes);
 
 /// Batches that cover every tile and stratum once, of at most `most_strata` strata; for each tile the strata in order.
 std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uint64_t most_slots, uint32_t most_strata = ~0u);

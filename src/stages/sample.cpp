@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/sample.hpp"
 
+#include <bit>
 #include <cmath>
 
 #include "shared/film.h"
@@ -36,12 +37,11 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
       settings_(settings),
       tracer_(device, programs, geometry, view, bins, "sample/trace", {settings.spp, settings.seed}, settings.most_slots) {
     const uint64_t most_slots = settings.most_slots;
-    uint64_t pixels = uint64_t(bins.grid.width) * bins.grid.height;
-    lit_ = device.allocate("lit", most_slots * 4);
+    lit_ = device.allocate("lit", most_slots * 4 * (settings.fractional ? std::max(1u, settings.light_count) : 1));
     queue_ = device.allocate("queue", most_slots * 4);
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
     ticket_ = device.allocate("ticket", 4);
-    film_ = device.allocate("film", pixels * (shared::kFilmVisibility + settings.light_count) * 4);
+    film_ = device.allocate("film", film_floats() * 4);
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
@@ -77,22 +77,24 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
         uint64_t bytes = parts > 1 ? tracer_.hits().bytes() * 2 : 8;
         if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
     }
+    const uint64_t slots = settings_.most_slots;
     std::vector<gpu::Binding> all = {{"queue", &queue_, Texel::r32_uint},
                                      {"hits", &tracer_.hits(), Texel::r32_uint},
                                      {"triangles", &geometry_.triangles, Texel::rgba32_uint},
                                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                      {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
                                      {"positions", &geometry_.positions, Texel::rgba32_float},
-                                     {"Lit", &lit_},
+                                     {"Lit", &lit_, {}, settings_.fractional ? light.light_ix * slots * 4 : 0, slots * 4},
                                      {"ShadowCounts", &shadow_counts_},
                                      {"Ticket", &ticket_},
                                      {"Iterators", &iterators_}};
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
     // The first pass over the queue writes every hit's word, later ones clear bits in it.
-    bool first = !lit_written_ && parts == 1 && band.item_first == 0 && band.item_count == light.map->item_count();
+    bool first = !settings_.fractional && !lit_written_ && parts == 1 && band.item_first == 0 &&
+                 band.item_count == light.map->item_count();
     const ItemOrder order = light.map->order();
     gpu::Recorder recorder(device_);
-    if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, 0xffffffffu);
+    if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
     lit_written_ = true;
     recorder.fill("sample/shadow", shadow_counts_, 0);
     std::vector<uint32_t> constants = {light.view.orthographic, view_.orthographic, tracer_.straddle(),
@@ -143,11 +145,11 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
 
 void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
     gpu::Recorder recorder(device_);
-    if (!lit_written_) recorder.fill("sample/shade", lit_, 0xffffffffu);
+    if (!lit_written_) recorder.fill("sample/shade", lit_, all_lit());
     recorder.dispatch(
         "sample/shade",
         programs_.get("sample/shade", {view_.orthographic, tracer_.straddle(), settings_.keep_depths, geometry_.textured,
-                                       geometry_.smooth, lights_move}),
+                                       geometry_.smooth, lights_move, settings_.fractional}),
         bindings({{"hits", &tracer_.hits(), Texel::r32_uint},
                   {"lit", &lit_, Texel::r32_uint},
                   {"triangles", &geometry_.triangles, Texel::rgba32_uint},
@@ -162,20 +164,28 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
                   {"Film", &film_},
                   {"Depths", &depth_values_}}),
         shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count,
-                            settings_.spp, settings_.seed, settings_.light_count, static_cast<uint32_t>(view_.keys.size())},
+                            settings_.spp, settings_.seed, settings_.light_count, static_cast<uint32_t>(view_.keys.size()),
+                            static_cast<uint32_t>(settings_.most_slots)},
         batch_.tile_count);
     recorder.submit();
 }
 
-std::vector<float> Sampler::film() const {
-    uint64_t pixels = uint64_t(bins_.grid.width) * bins_.grid.height;
-    return gpu::download_vector<float>(device_, film_, pixels * (shared::kFilmVisibility + settings_.light_count));
+std::vector<float> Sampler::film() const { return gpu::download_vector<float>(device_, film_, film_floats()); }
+
+uint64_t Sampler::film_floats() const {
+    const uint64_t planes = shared::kFilmVisibility + uint64_t(settings_.light_count) * (settings_.fractional ? 2 : 1);
+    return uint64_t(bins_.grid.width) * bins_.grid.height * planes;
 }
+
+uint32_t Sampler::all_lit() const { return settings_.fractional ? std::bit_cast<uint32_t>(1.0f) : ~0u; }
 
 std::vector<uint32_t> Sampler::batch_hits() const {
     return gpu::download_vector<uint32_t>(device_, tracer_.hits(), batch_.slot_count());
 }
 std::vector<uint32_t> Sampler::batch_lit() const { return gpu::download_vector<uint32_t>(device_, lit_, batch_.slot_count()); }
+std::vector<float> Sampler::batch_visibility(uint32_t light) const {
+    return gpu::download_vector<float>(device_, lit_, batch_.slot_count(), light * settings_.most_slots * 4);
+}
 std::vector<float> Sampler::batch_depths() const {
     return gpu::download_vector<float>(device_, depth_values_, batch_.slot_count());
 }

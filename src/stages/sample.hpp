@@ -29,6 +29,7 @@ struct SamplerSettings {
     uint32_t seed = 0;
     uint32_t light_count = 0;
     uint64_t most_slots = 0;    ///< Of a batch.
+    bool fractional = false;    ///< Visibility is a share, not a bit.
     bool keep_depths = false;   ///< Each sample's depth, for batch_depths().
     bool count_ranges = false;  ///< Fill shadow_counts().
 };
@@ -49,11 +50,15 @@ public:
     uint64_t hit_count() const { return hit_total_; }
     const ShadowCounts& shadow_counts() const { return counts_; }
 
-    std::vector<uint32_t> batch_hits() const;  ///< Per slot.
-    std::vector<uint32_t> batch_lit() const;
+    std::vector<uint32_t> batch_hits() const;                   ///< Per slot.
+    std::vector<uint32_t> batch_lit() const;                    ///< A bit for each light.
+    std::vector<float> batch_visibility(uint32_t light) const;  ///< Where it is fractional.
     std::vector<float> batch_depths() const;
 
 private:
+    uint64_t film_floats() const;
+    uint32_t all_lit() const;  ///< A word of lit_ where nothing shadows.
+
     gpu::Device& device_;
     Programs& programs_;
     const Geometry& geometry_;
