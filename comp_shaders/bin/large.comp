@@ -12,6 +12,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
+layout(constant_id = 1) const bool kByBounds = false;  // Each prism once, in every tile of its bounds.
 layout(binding = 0) uniform usamplerBuffer blocks;
 layout(binding = 1) uniform usamplerBuffer rects;
 layout(binding = 2) uniform usamplerBuffer triangles;
@@ -57,8 +58,8 @@ void main() {
     vec3 a0 = tile_relative(c.a0, centre.x, centre.y), a1 = tile_relative(c.a1, centre.x, centre.y), a2 = tile_relative(c.a2, centre.x, centre.y);
     vec3 b0 = tile_relative(c.b0, centre.x, centre.y), b1 = tile_relative(c.b1, centre.x, centre.y), b2 = tile_relative(c.b2, centre.x, centre.y);
     float extent = grid_extent(grid);
-    bool positive = inside && (rect.seen & kSeenPositive) != 0u && touches_tile(a0, a1, a2, b0, b1, b2, extent);
-    bool negative = inside && (rect.seen & kSeenNegative) != 0u && touches_tile(a0, a2, a1, b0, b2, b1, extent);
+    bool positive = inside && (kByBounds || ((rect.seen & kSeenPositive) != 0u && touches_tile(a0, a1, a2, b0, b1, b2, extent)));
+    bool negative = inside && !kByBounds && (rect.seen & kSeenNegative) != 0u && touches_tile(a0, a2, a1, b0, b2, b1, extent);
 
     uint copies = (positive ? 1u : 0u) + (negative ? 1u : 0u);
     if (copies > 0u) {

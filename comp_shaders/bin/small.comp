@@ -10,6 +10,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
+layout(constant_id = 1) const bool kByBounds = false;  // Each prism once.
 layout(binding = 0) uniform usamplerBuffer rects;
 layout(binding = 1, scalar) buffer Lists { uint lists[]; };
 layout(binding = 2, scalar) writeonly buffer Entries { uint entries[]; };
@@ -20,8 +21,8 @@ void main() {
     bool inside = triangle < params.grid.triangle_count;
     Rect rect = unpack_rect(texelFetch(rects, int(min(triangle, params.grid.triangle_count - 1u))).xy);
     bool listed = inside && rect.seen != 0u && !rect_is_large(rect.first, rect.last, rect.in_front);
-    uint copies = rect.seen == 3u ? 2u : 1u;
-    uint first_entry = triangle | (rect.seen == 2u ? kReversed : 0u);
+    uint copies = rect.seen == 3u && !kByBounds ? 2u : 1u;
+    uint first_entry = triangle | (rect.seen == 2u && !kByBounds ? kReversed : 0u);
     uvec2 tile = rect.first;
     bool more;
     do {

@@ -24,6 +24,8 @@ const uint kBlockTiles = 8u;
 // together, without a word, and raster/conservative goes round up to 10 times for an entry: for itself, and for each of up to 8
 // rows; and once more for each crew of entries (common/crew.glsl).
 const uint kListChunk = 6144u;
+// Fragments of a list that one dispatch of raster/prism pairs, up to the end of a prism's.
+const uint kPairChunk = 32768u;
 // Elements that one invocation scans.
 const uint kScanRun = 64u;
 
@@ -83,6 +85,7 @@ struct RasterParams {
     uint item_first;
     uint list_first;   // Walk entries [list_first, list_first + kListChunk) of each list.
     uint range_first;  // The number of the first range in the bound memory.
+    uint fragment_first;  // raster/prism: the number of the first fragment in memory.
 };
 
 struct TraceParams {

@@ -20,8 +20,9 @@ struct RenderSettings {
     uint32_t camera = 0;         ///< Index into Scene::cameras.
     uint32_t shadow_res = 1024;  ///< Texels along a light view's side, 1 to 16384.
     std::string method = "exact";
-    std::string layout = "array";  ///< A registered layout, or a folder that holds one.
-    std::string raster = "auto";   ///< How ranges are found: analytic, conservative, or auto: what the method is made for.
+    std::string layout = "auto";  ///< A registered layout, a folder that holds one, or auto: what the method is made for.
+    std::string raster =
+        "auto";  ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
     uint64_t memory_budget = 0;  ///< Most bytes of device memory; 0: half the device's heap.
@@ -63,7 +64,7 @@ struct Frame {
     uint32_t light_count = 0;
     std::vector<Channel> channels;  ///< R G B A Z, then visibility.<i> and visibility_var.<i> for each light.
     std::vector<SampleRecord> samples;
-    std::vector<float> sample_visibility;  ///< Of methods that give shares: index sample * light_count + light.
+    std::vector<float> sample_visibility;          ///< Of methods that give shares: index sample * light_count + light.
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
 };

@@ -18,15 +18,15 @@ struct LayoutBuffer {
     enum class Per { once, list, range };
     enum class Clear { no, value, range_first };
 
-    std::string block;  ///< The storage block that writes it.
-    std::string texel;  ///< The texel buffer that reads it; empty: not read by the shadow test.
+    std::string block = {};  ///< The storage block that writes it.
+    std::string texel = {};  ///< The texel buffer that reads it; empty: not read by the shadow test.
     gpu::Texel format = gpu::Texel::r32_uint;
     uint32_t element_bytes = 4;
-    Per per = Per::once;      ///< One element for the view, per list (texel and cell), or per range.
-    bool exit_only = false;   ///< Only for methods whose ranges have a depth at their exit.
-    bool scan = false;        ///< After the count pass: replaced by its exclusive prefix sum.
-    std::string copy_of;      ///< After that: a copy of this buffer.
-    Clear clear = Clear::no;  ///< Before the fill pass.
+    Per per = Per::once;       ///< One element for the view, per list (texel and cell), or per range.
+    bool exit_only = false;    ///< Only for methods whose ranges have a depth at their exit.
+    bool scan = false;         ///< After the count pass: replaced by its exclusive prefix sum.
+    std::string copy_of = {};  ///< After that: a copy of this buffer.
+    Clear clear = Clear::no;   ///< Before the fill pass.
     uint32_t clear_value = 0;
 };
 

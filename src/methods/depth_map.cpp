@@ -56,7 +56,8 @@ DepthMap::DepthMap(const LightContext& light, const Bins& bins, DepthMapKind kin
 }
 
 std::map<std::string, uint64_t> DepthMap::counts() const {
-    return {{"map_samples", uint64_t(item_count()) * shared::kTileTexels}};
+    const uint64_t samples = uint64_t(item_count()) * shared::kTileTexels;
+    return {{"map_samples", samples}, {"map_bytes", samples * sample_bytes()}};
 }
 
 std::map<std::string, std::string> DepthMap::effective() const {

@@ -8,7 +8,7 @@
 
 #include "methods/depth_map.hpp"
 #include "pipeline/memory_plan.hpp"
-#include "stages/raster.hpp"
+#include "stages/prism.hpp"
 
 namespace gnomon {
 namespace {
@@ -26,8 +26,18 @@ uint32_t segment_cells(const LightContext& light) { return light.geometry.segmen
 uint32_t finer_cells(const LightContext& light) { return light_cells(light.geometry.segment_count, light.still); }
 
 std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
-    return std::make_unique<SBuffer>(light.device, light.programs, light.geometry, bins, light.layout, "raster/" + light.raster,
-                                     light.view.orthographic);
+    const std::string shader = light.layout.stage("raster/" + light.raster);
+    const bool orthographic = light.view.orthographic;
+    const std::optional<double> cull = light.parameter("cull-back-faces");
+    if (cull && light.raster != "prism") {
+        throw Error(ErrorKind::usage, "raster '" + light.raster + "' keeps all prisms", "--cull-back-faces",
+                    "leave it out or use --raster prism");
+    }
+    // A quarter for the fragments: the ranges made of them are bound in bands too.
+    auto raster = light.raster == "prism" ? pair_fragments(light.device, light.programs, light.geometry, bins, shader,
+                                                           {orthographic, cull.value_or(0) != 0}, light.bytes / 4)
+                                          : walk_bins(light.programs, light.geometry, bins, shader, orthographic);
+    return std::make_unique<SBuffer>(light.device, light.programs, std::move(raster), light.layout);
 }
 
 // Its prisms are listed as the camera's are, since its view is sampled as the camera's image is.
@@ -67,11 +77,22 @@ const std::vector<Method>& methods() {
          .shadow_stage = "sample/shadow",
          .light_cells = finer_cells,
          .make_map = make_s_buffer},
+        {.name = "dtr",
+         .summary = "ranges of triangulated prisms at the texels' centres; depth is linear between entry and exit",
+         .source = "Hong and Oh 2018",
+         .rasters = {"prism", "analytic"},
+         .shadow_stage = "methods/dtr/shadow",
+         .layout = "linked",
+         .exit_depth = true,
+         .parameters = {{"cull-back-faces", "0 or 1", "Leave out prisms that the light sees from behind at both ends", "0", 0,
+                         1, true}},
+         .light_cells = segment_cells,
+         .make_map = make_s_buffer},
         {.name = "dtr-analytic",
          .summary = "ranges at the texels' centres; depth is linear between entry and exit",
          .source = "Hong and Oh 2018, 3.3, with analytic ranges",
          .rasters = {"analytic"},
-         .shadow_stage = "methods/dtr_analytic/shadow",
+         .shadow_stage = "methods/dtr/shadow",
          .exit_depth = true,
          .light_cells = segment_cells,
          .make_map = make_s_buffer},

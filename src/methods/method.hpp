@@ -40,6 +40,7 @@ struct LightContext {
     const Bounds& bounds;
     uint32_t light_ix = 0;
     bool still = false;  ///< Nothing moves.
+    uint64_t bytes = 0;  ///< Its share of the memory budget.
     Layout layout;       ///< Of the S-buffer, where the method has one; likewise the stage that finds its ranges.
     std::string raster;
 
@@ -52,9 +53,10 @@ struct Method {
     std::string source;  ///< Paper and section.
     /// Stages raster/<name> whose ranges the test understands, the default first; none: no S-buffer.
     std::vector<std::string> rasters = {};
-    std::string shadow_stage;  ///< The test; compiled for each layout where there is an S-buffer.
-    bool exit_depth = false;   ///< A range has a depth at its exit.
-    bool fractional = false;   ///< Visibility is a share of the light, not a bit.
+    std::string shadow_stage;      ///< The test; compiled for each layout where there is an S-buffer.
+    std::string layout = "array";  ///< Of the S-buffer, where the settings leave it open.
+    bool exit_depth = false;       ///< A range has a depth at its exit.
+    bool fractional = false;       ///< Visibility is a share of the light, not a bit.
     std::vector<Parameter> parameters = {};
 
     /// In how many cells of time the light's prisms are listed.

@@ -168,7 +168,8 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     const Method& method = find_method(settings.method);
     check_parameters(method, settings.parameters);
     const std::string raster = choose_raster(method, settings.raster);
-    const Layout layout = with_ranges(find_layout(settings.layout), method.exit_depth);
+    const Layout layout =
+        with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
     if (method.has_s_buffer() && !layout.folder.empty()) {
         for (const std::string& stage : {"raster/" + raster, method.shadow_stage})
             programs.add(layout.stage(stage), compile_stage(stage, layout));
@@ -205,12 +206,13 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     }
     std::vector<LightContext> contexts;
     for (const LightSide& side : sides) {
-        contexts.push_back(
-            {device, programs, geometry, settings, method, side.view, bounds, side.light_ix, is_still(poses), layout, raster});
+        contexts.push_back({device, programs, geometry, settings, method, side.view, bounds, side.light_ix, is_still(poses),
+                            budget / sides.size(), layout, raster});
     }
     for (size_t i = 0; i < sides.size(); ++i) {
         LightSide& side = sides[i];
-        side.bins = bin_prisms(device, programs, geometry, side.view, method.light_cells(contexts[i]));
+        side.bins = bin_prisms(device, programs, geometry, side.view, method.light_cells(contexts[i]),
+                               raster == "prism" ? Listing::bounds : Listing::swept);
         side.map = method.make_map(contexts[i], side.bins);
         const std::string light = std::to_string(side.light_ix);
         frame.stats.counts["bin_entries." + light] = side.bins.entry_count;

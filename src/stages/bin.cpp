@@ -32,7 +32,9 @@ void record_project(Programs& programs, gpu::Recorder& recorder, const Geometry&
 
 }  // namespace
 
-Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count) {
+Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
+                Listing listing) {
+    const bool by_bounds = listing == Listing::bounds;
     Bins bins;
     shared::ViewGrid& grid = bins.grid;
     grid.width = view.width;
@@ -76,7 +78,7 @@ Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometr
     auto record_lists = [&](bool fill, const gpu::Buffer& lists, const gpu::Buffer& entries) {
         const char* stage = fill ? "bin/fill" : "bin/count";
         for (uint32_t cell = 0; cell < cell_count; ++cell) {
-            recorder.dispatch(stage, programs.get("bin/small", {fill}),
+            recorder.dispatch(stage, programs.get("bin/small", {fill, by_bounds}),
                               bindings({{"rects", &rects, Texel::rg32_uint, cell * rect_stride, rect_stride},
                                         {"Lists", &lists},
                                         {"Entries", &entries}}),
@@ -89,7 +91,7 @@ Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometr
                                   params(cell), triangle_groups);
             }
         }
-        recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs.get("bin/large", {fill}),
+        recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs.get("bin/large", {fill, by_bounds}),
                           bindings({{"blocks", &blocks, Texel::rg32_uint},
                                     {"rects", &rects, Texel::rg32_uint},
                                     {"triangles", &geometry.triangles, Texel::rgba32_uint},

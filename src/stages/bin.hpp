@@ -18,8 +18,15 @@ struct Bins {
     uint32_t longest = 0;  ///< Entries of the longest list.
 };
 
+/// In which tiles a prism is listed.
+enum class Listing {
+    swept,   ///< Those that it can touch, in each orientation that it can have there.
+    bounds,  ///< All that its bounds touch, once, not reversed.
+};
+
 /// Project, bound, count, scan, fill. cell_count: a multiple of the segments.
 /// Errors: ErrorKind::out_of_memory.
-Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count);
+Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
+                Listing listing = Listing::swept);
 
 }  // namespace gnomon

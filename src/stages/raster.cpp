@@ -15,44 +15,28 @@ using gpu::Texel;
 // Ranges in memory start at a multiple of this, which keeps every binding aligned whatever the size of its elements.
 constexpr uint64_t kRangeAlign = 64;
 
-struct RasterStage {
-    uint32_t items_per_group;   // Of one workgroup.
-    uint32_t ranges_per_prism;  // Most in one list.
-};
-
-RasterStage raster_stage(const std::string& raster) {
-    if (raster == "raster/conservative") return {8, 1};
-    if (raster == "raster/analytic") return {1, 4};
-    throw Error(ErrorKind::internal, "no such raster stage", raster, "report this as a bug");
-}
-
 uint64_t align_down(uint64_t value) { return value / kRangeAlign * kRangeAlign; }
 
 }  // namespace
 
-SBuffer::SBuffer(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins, const Layout& layout,
-                 const std::string& raster, bool orthographic)
-    : device_(device),
-      programs_(programs),
-      geometry_(geometry),
-      bins_(bins),
-      layout_(layout),
-      raster_(layout.stage(raster)),
-      items_per_group_(raster_stage(raster).items_per_group),
-      longest_(uint64_t(bins.longest) * raster_stage(raster).ranges_per_prism),
-      orthographic_(orthographic) {
-    item_count_ = bins.grid.tiles_x * bins.grid.tiles_y * bins.grid.cell_count;
+SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
+                 const std::string& prefix)
+    : device_(device), programs_(programs), raster_(std::move(raster)), layout_(layout), prefix_(prefix) {
+    const shared::ViewGrid& grid = raster_->grid();
+    item_count_ = grid.tiles_x * grid.tiles_y * grid.cell_count;
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;
+    portions_ = raster_->portions();
+    if (portions_.empty()) portions_.push_back({0, item_count_});
     uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
     range_counts_ = device.allocate("range_counts", blocks * sizeof(glm::uvec2));
     ticket_ = device.allocate("ticket", 4);
     unbound_ = device.allocate("unbound", 16);
+    const bool scanned = std::any_of(layout_.buffers.begin(), layout_.buffers.end(), [](const auto& b) { return b.scan; });
+    const uint64_t list_elements = scanned ? scan_bytes(list_count_) / 4 : list_count_;
     for (const LayoutBuffer& description : layout_.buffers) {
-        uint64_t bytes =
-            description.per == LayoutBuffer::Per::list ? scan_bytes(list_count_) / 4 * description.element_bytes : 4;
-        gpu::Buffer buffer = description.per == LayoutBuffer::Per::range
-                                 ? gpu::Buffer()
-                                 : device.allocate("s_buffer." + description.block, bytes);
+        uint64_t bytes = description.per == LayoutBuffer::Per::list ? list_elements * description.element_bytes : 4;
+        gpu::Buffer buffer =
+            description.per == LayoutBuffer::Per::range ? gpu::Buffer() : device.allocate(prefix_ + description.block, bytes);
         memory_.push_back({description, std::move(buffer)});
     }
     count();
@@ -64,13 +48,23 @@ uint64_t SBuffer::bytes_per_range() const {
     return bytes;
 }
 
+uint64_t SBuffer::map_bytes() const {
+    uint64_t bytes = range_count_ * bytes_per_range() + raster_->source_bytes();
+    for (const Memory& m : memory_) bytes += m.description.per == LayoutBuffer::Per::list ? m.buffer.bytes() : 0;
+    return bytes;
+}
+
+std::map<std::string, uint64_t> SBuffer::counts() const {
+    std::map<std::string, uint64_t> counts = raster_->counts();
+    counts["ranges"] = range_count_;
+    counts["map_bytes"] = map_bytes();
+    return counts;
+}
+
 void SBuffer::record_pass(gpu::Recorder& recorder, bool fill, const Band& part) {
-    std::vector<gpu::Binding> all = {{"bin_offsets", &bins_.offsets, Texel::r32_uint},
-                                     {"bin_entries", &bins_.entries, Texel::r32_uint},
-                                     {"triangles", &geometry_.triangles, Texel::rgba32_uint},
-                                     {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                     {"RangeCounts", &range_counts_},
-                                     {"Ticket", &ticket_}};
+    std::vector<gpu::Binding> all = raster_->bindings();
+    all.push_back({"RangeCounts", &range_counts_});
+    all.push_back({"Ticket", &ticket_});
     uint64_t first_bound = std::max<uint64_t>(range_base_, align_down(part.range_first));
     for (const Memory& m : memory_) {
         uint64_t size = m.description.element_bytes;
@@ -98,21 +92,37 @@ void SBuffer::record_pass(gpu::Recorder& recorder, bool fill, const Band& part) 
                 break;
         }
     }
-    uint64_t groups = groups_of(part.item_count, items_per_group_);
-    for (uint32_t first = 0; first == 0 || first < bins_.longest; first += shared::kListChunk) {
-        recorder.fill(fill ? "raster/fill" : "raster/count", ticket_, 0);
-        recorder.dispatch(
-            fill ? "raster/fill" : "raster/count", programs_.get(raster_, {fill, orthographic_}), all,
-            shared::RasterParams{bins_.grid, part.item_count, part.item_first, first, static_cast<uint32_t>(first_bound)},
-            groups);
+    uint64_t groups = groups_of(part.item_count, raster_->items_per_group());
+    for (uint32_t i = 0; i < raster_->part_count(); ++i) {
+        recorder.fill(raster_->timing(fill), ticket_, 0);
+        recorder.dispatch(raster_->timing(fill), raster_->program(fill), all,
+                          shared::RasterParams{raster_->grid(), part.item_count, part.item_first, i * shared::kListChunk,
+                                               static_cast<uint32_t>(first_bound), raster_->fragment_base()},
+                          groups);
     }
+}
+
+size_t SBuffer::portion_of(uint32_t item) const {
+    size_t i = portions_.size() - 1;
+    while (portions_[i].item_first > item) --i;
+    return i;
+}
+
+// What was recorded needs the portion before.
+void SBuffer::prepare(gpu::Recorder& recorder, uint32_t item) {
+    const size_t portion = portion_of(item);
+    if (portion == prepared_) return;
+    recorder.submit();
+    raster_->prepare(portions_[portion]);
+    prepared_ = portion;
 }
 
 void SBuffer::count() {
     gpu::Recorder recorder(device_);
-    recorder.fill("raster/count", range_counts_, 0);
+    recorder.fill(raster_->timing(false), range_counts_, 0);
     for (const Memory& m : memory_) {
-        if (m.description.per == LayoutBuffer::Per::list && m.description.scan) recorder.fill("raster/count", m.buffer, 0);
+        if (m.description.per == LayoutBuffer::Per::list && m.description.scan)
+            recorder.fill(raster_->timing(false), m.buffer, 0);
     }
     // Lists are bound in parts that one binding can hold.
     uint64_t widest = 4;
@@ -120,10 +130,13 @@ void SBuffer::count() {
         widest = std::max<uint64_t>(widest, b.per == LayoutBuffer::Per::list ? b.element_bytes : 4);
     uint64_t most_items =
         device_.limits().max_storage_range / (widest * shared::kTileTexels) / shared::kCountBlock * shared::kCountBlock;
-    for (uint64_t first = 0; first < item_count_; first += most_items) {
-        record_pass(
-            recorder, false,
-            {static_cast<uint32_t>(first), static_cast<uint32_t>(std::min<uint64_t>(most_items, item_count_ - first)), 0, 0});
+    for (const Band& portion : portions_) {
+        prepare(recorder, portion.item_first);
+        for (uint64_t first = 0; first < portion.item_count; first += most_items) {
+            const uint64_t items = std::min<uint64_t>(most_items, portion.item_count - first);
+            record_pass(recorder, false,
+                        {static_cast<uint32_t>(portion.item_first + first), static_cast<uint32_t>(items), 0, 0});
+        }
     }
     std::vector<Scan> scans;
     for (const Memory& m : memory_) {
@@ -184,7 +197,8 @@ std::vector<Band> SBuffer::parts(const Band& band) const {
                         std::to_string(ranges) + " ranges in one block of tiles are more than the device can bind", "S-buffer",
                         "use a larger --shadow-res");
         }
-        if (part->range_count + ranges > most_ranges || part->item_count + items > most_items) {
+        if (part->range_count + ranges > most_ranges || part->item_count + items > most_items ||
+            (part->item_count > 0 && portion_of(part->item_first) != portion_of(item))) {
             result.push_back({item, 0, part->range_first + part->range_count, 0});
             part = &result.back();
         }
@@ -200,8 +214,7 @@ void SBuffer::fill(const Band& band) {
     for (Memory& m : memory_) {
         if (m.description.per != LayoutBuffer::Per::range) continue;
         m.buffer = gpu::Buffer();
-        m.buffer =
-            device_.allocate("s_buffer." + m.description.block, std::max<uint64_t>(1, held) * m.description.element_bytes);
+        m.buffer = device_.allocate(prefix_ + m.description.block, std::max<uint64_t>(1, held) * m.description.element_bytes);
     }
     gpu::Recorder recorder(device_);
     for (const Memory& m : memory_) {
@@ -213,14 +226,15 @@ void SBuffer::fill(const Band& band) {
                 throw Error(ErrorKind::input, "'copy_of' names no buffer of the same size: " + d.copy_of,
                             layout_.name + "/layout.json", "name one of its blocks");
             }
-            recorder.copy("raster/fill", source->buffer, 0, m.buffer, 0, m.buffer.bytes());
+            recorder.copy(raster_->timing(true), source->buffer, 0, m.buffer, 0, m.buffer.bytes());
         }
-        if (d.clear == LayoutBuffer::Clear::value) recorder.fill("raster/fill", m.buffer, d.clear_value);
+        if (d.clear == LayoutBuffer::Clear::value) recorder.fill(raster_->timing(true), m.buffer, d.clear_value);
     }
     for (const Band& part : parts(band)) {
+        prepare(recorder, part.item_first);
         for (const Memory& m : memory_) {
             if (m.description.clear == LayoutBuffer::Clear::range_first)
-                recorder.fill("raster/fill", m.buffer, static_cast<uint32_t>(part.range_first));
+                recorder.fill(raster_->timing(true), m.buffer, static_cast<uint32_t>(part.range_first));
         }
         record_pass(recorder, true, part);
     }

@@ -3,25 +3,27 @@
 #pragma once
 
 #include "layouts/layout.hpp"
-#include "stages/bin.hpp"
-#include "stages/shadow_map.hpp"
+#include "stages/raster_stage.hpp"
 
 namespace gnomon {
 
 class SBuffer final : public ShadowMap {
 public:
-    /// Count the ranges of all lists. raster: the stage that finds them ("raster/conservative").
+    /// Count the ranges of all lists. raster: compiled for the layout; prefix: of the names of the buffers.
     /// Errors: ErrorKind::out_of_memory where one block of tiles alone is too much for the device.
-    SBuffer(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins, const Layout& layout,
-            const std::string& raster, bool orthographic);
+    SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
+            const std::string& prefix = "s_buffer.");
 
     uint64_t range_count() const { return range_count_; }
     uint64_t list_count() const { return list_count_; }
+    const shared::ViewGrid& grid() const { return raster_->grid(); }
+    /// Of all lists and ranges, and of what they are made from.
+    uint64_t map_bytes() const;
 
-    ItemOrder order() const override { return {bins_.grid.cell_count, bins_.grid.cell_count, 1}; }
+    ItemOrder order() const override { return {raster_->grid().cell_count, raster_->grid().cell_count, 1}; }
     uint32_t item_count() const override { return item_count_; }
-    uint64_t longest() const override { return longest_; }
-    std::map<std::string, uint64_t> counts() const override { return {{"ranges", range_count_}}; }
+    uint64_t longest() const override { return raster_->longest(); }
+    std::map<std::string, uint64_t> counts() const override;
     /// As ShadowMap's; errors say how much a single block of items needs.
     std::vector<Band> bands(uint64_t bytes) const override;
     void fill(const Band& band) override;
@@ -35,19 +37,19 @@ private:
     };
 
     void count();
+    void prepare(gpu::Recorder& recorder, uint32_t item);
+    size_t portion_of(uint32_t item) const;
     void record_pass(gpu::Recorder& recorder, bool fill, const Band& part);
-    std::vector<Band> parts(const Band& band) const;  ///< That one binding can hold.
+    std::vector<Band> parts(const Band& band) const;  ///< That one binding can hold, each of one portion.
     uint64_t bytes_per_range() const;
 
     gpu::Device& device_;
     Programs& programs_;
-    const Geometry& geometry_;
-    const Bins& bins_;
+    std::unique_ptr<RasterStage> raster_;
     Layout layout_;
-    std::string raster_;
-    uint32_t items_per_group_;
-    uint64_t longest_;
-    bool orthographic_;
+    std::string prefix_;
+    std::vector<Band> portions_;    ///< The raster stage's; all items, where it has none.
+    size_t prepared_ = ~size_t(0);  ///< Which of them is.
     uint32_t item_count_ = 0;
     uint64_t list_count_ = 0;
     uint64_t range_count_ = 0;

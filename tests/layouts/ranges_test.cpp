@@ -31,8 +31,11 @@ protected:
     }
 
     SBuffer s_buffer_of(const LightSoup& light, const std::string& layout) {
-        return SBuffer(device(), programs(), light.geometry, light.bins, with_ranges(find_layout(layout), false),
-                       "raster/conservative", light.soup.orthographic);
+        const Layout found = with_ranges(find_layout(layout), false);
+        return SBuffer(
+            device(), programs(),
+            walk_bins(programs(), light.geometry, light.bins, found.stage("raster/conservative"), light.soup.orthographic),
+            found);
     }
 
     Lists whole(SBuffer& s_buffer, const std::string& layout) {

@@ -43,9 +43,11 @@ protected:
             side.light_ix = i;
             side.view = light_view(scene.scene.lights[i], scene.poses, i, bounds, setup.resolution);
             side.bins = bin_prisms(device(), programs(), geometry, side.view, setup.light_cells);
-            auto s_buffer = std::make_unique<SBuffer>(device(), programs(), geometry, side.bins,
-                                                      with_ranges(find_layout(setup.layout), false), "raster/conservative",
-                                                      side.view.orthographic);
+            const Layout layout = with_ranges(find_layout(setup.layout), false);
+            auto s_buffer = std::make_unique<SBuffer>(
+                device(), programs(),
+                walk_bins(programs(), geometry, side.bins, layout.stage("raster/conservative"), side.view.orthographic),
+                layout);
             side.bands =
                 s_buffer->bands(setup.band_share == 1 ? 1ull << 40 : s_buffer->range_count() * 24 / setup.band_share + 16384);
             side.map = std::move(s_buffer);

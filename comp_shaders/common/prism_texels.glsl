@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rasterizing prisms by their triangulated surface (math/prism.h): every texel centre that a prism of an item's list covers is visited, once. The list holds prisms
+// by their bounds, each once. 8 invocations per item, each with prisms of its own. Needs: void visit(uint list, uint triangle, PrismFragments fragments)
+#include "math/prism.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kPass = 0u;
+layout(constant_id = 1) const bool kOrthographic = false;
+layout(constant_id = 2) const bool kCullBackFaces = false;  // Leave out what the light sees from behind at both ends.
+layout(binding = 0) uniform usamplerBuffer bin_offsets;
+layout(binding = 1) uniform usamplerBuffer bin_entries;
+layout(binding = 2) uniform usamplerBuffer triangles;
+layout(binding = 3) uniform samplerBuffer raster_vertices;
+layout(binding = 5, scalar) buffer Ticket { uint ticket; };
+layout(push_constant, scalar) uniform Push { RasterParams params; };
+#include "common/triangle.glsl"
+#include "common/cell.glsl"
+#include "common/ticket.glsl"
+
+void visit(uint list, uint triangle, PrismFragments fragments);
+
+// The texels of a tile whose centres the prism's bounds hold: first and last column and row.
+uvec4 covered_texels(CellTriangle c, vec2 centre, float extent) {
+    if (!cell_in_front(c)) return uvec4(0u, 0u, kTileSize - 1u, kTileSize - 1u);
+    CellBox box = cell_box(c, extent, 0.0);
+    vec2 first = ceil(box.lower - centre + 3.5), last = floor(box.upper - centre + 3.5);
+    bool none = first.x > last.x || first.y > last.y || first.x > 7.0 || first.y > 7.0 || last.x < 0.0 || last.y < 0.0;
+    return none ? uvec4(1u, 1u, 0u, 0u) : uvec4(clamp(vec4(first, last), vec4(0.0), vec4(7.0)));
+}
+
+bool is_culled(CellTriangle c) {
+    return kCullBackFaces && det3(c.a0.xyw, c.a1.xyw, c.a2.xyw) > 0.0 && det3(c.b0.xyw, c.b1.xyw, c.b2.xyw) > 0.0;
+}
+
+// Of the item with this number in the dispatch.
+void visit_texels(uint number) {
+    bool inside = number < params.item_count;
+    uint item = params.item_first + min(number, params.item_count - 1u);
+    ViewGrid grid = params.grid;
+    uint tile = item / grid.cell_count;
+    uint cell = item - tile * grid.cell_count;
+    uint tile_y = tile / grid.tiles_x;
+    uint tile_x = tile - tile_y * grid.tiles_x;
+    vec2 centre = tile_centre(grid, tile_x, tile_y);
+    uvec2 most = min(uvec2(grid.width, grid.height) - uvec2(tile_x, tile_y) * kTileSize, uvec2(kTileSize)) - 1u;
+    uint key_first = segment_of_cell(grid, cell) * grid.vertex_stride;
+    vec2 span = cell_span(grid, cell);
+    uint list_first = (item - params.item_first) * kTileTexels;
+
+    uint k = texelFetch(bin_offsets, int(item)).x + params.list_first;
+    uint end = inside ? min(texelFetch(bin_offsets, int(item + 1u)).x, k + kListChunk) : 0u;
+    k += gl_LocalInvocationID.x & 7u;
+    while (k < end) {
+        uint entry = texelFetch(bin_entries, int(k)).x & ~kReversed;
+        CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
+        PrismSurface surface = prism_surface(c, centre.x, centre.y, kOrthographic);
+        uvec4 texels = covered_texels(c, centre, grid_extent(grid));
+        uvec2 last = min(texels.zw, most);
+        uvec2 at = texels.xy;
+        bool more = at.x <= last.x && at.y <= last.y && !is_culled(c);
+        while (more) {
+            PrismFragments fragments = fragments_at(surface, float(at.x) - 3.5, float(at.y) - 3.5, kOrthographic ? -kFarthest : 0.0);
+            if (fragments.covered != 0u) visit(list_first + at.y * kTileSize + at.x, entry, fragments);
+            bool row_ends = at.x == last.x;
+            at = row_ends ? uvec2(texels.x, at.y + 1u) : at + uvec2(1u, 0u);
+            more = at.y <= last.y;
+        }
+        k += 8u;
+    }
+}

@@ -1,0 +1,43 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: the fragments of all prisms at each texel's centre, a linked list per texel and cell. Count, or fill. One prism's fragments lie side by side in a list.
+// Reads:   bin_offsets, bin_entries, triangles, raster_vertices, coverage (with kCoverage: covered texels get none)
+// Writes:  RangeCounts (fragments; 64 bits per kCountBlock items); FragmentHeads, Fragments (metres, time in the cell, triangle, next or kNone), FragmentCount
+// Grid:    8 invocations per tile and cell
+// Based on: Hong and Oh 2018, "Motion-blurred shadows utilizing a depth-time ranges shadow map", sections 4.1 and 4.2
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "common/prism_texels.glsl"
+
+layout(constant_id = 3) const bool kCoverage = false;
+layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
+layout(binding = 6) uniform usamplerBuffer coverage;
+layout(binding = 16, scalar) buffer FragmentHeads { uint fragment_heads[]; };
+layout(binding = 17, scalar) writeonly buffer Fragments { uvec4 fragments[]; };
+layout(binding = 18, scalar) buffer FragmentCount { uint fragment_count; };
+#include "common/range_count.glsl"
+
+uint total = 0u;
+
+void visit(uint list, uint triangle, PrismFragments f) {
+    if (kCoverage && texelFetch(coverage, int(params.item_first * kTileTexels + list)).x != kNone) return;
+    uint count = uint(bitCount(f.covered));
+    total += count;
+    if (kPass == 0u) return;
+    uint node = atomicAdd(fragment_count, count);
+    uint next = atomicExchange(fragment_heads[list], node);
+    uint last = node + count - 1u;
+    [[unroll]] for (uint i = 0u; i < kPrismTriangles; ++i) {
+        if ((f.covered & (1u << i)) != 0u) {
+            fragments[node - params.range_first] =
+                uvec4(floatBitsToUint(f.metres[i]), floatBitsToUint(f.time[i]), triangle, node == last ? next : node + 1u);
+            ++node;
+        }
+    }
+}
+
+void main() {
+    uint number = take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u);
+    visit_texels(number);
+    if (kPass == 0u) add_range_count(min(params.item_first + number, params.item_first + params.item_count - 1u) / kCountBlock, total);
+}

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/raster_stage.hpp"
+
+#include <gnomon/error.hpp>
+
+#include "stages/grid.hpp"
+
+namespace gnomon {
+namespace {
+
+using gpu::Texel;
+
+class WalkBins final : public RasterStage {
+public:
+    WalkBins(Programs& programs, const Geometry& geometry, const Bins& bins, std::string shader, bool orthographic,
+             uint32_t items_per_group, uint32_t ranges_per_prism)
+        : programs_(programs),
+          geometry_(geometry),
+          bins_(bins),
+          shader_(std::move(shader)),
+          orthographic_(orthographic),
+          items_per_group_(items_per_group),
+          ranges_per_prism_(ranges_per_prism) {}
+
+    const shared::ViewGrid& grid() const override { return bins_.grid; }
+    uint32_t items_per_group() const override { return items_per_group_; }
+    uint64_t longest() const override { return uint64_t(bins_.longest) * ranges_per_prism_; }
+    uint32_t part_count() const override { return bin_part_count(bins_); }
+    const gpu::Program& program(bool fill) const override { return programs_.get(shader_, {fill, orthographic_}); }
+    std::vector<gpu::Binding> bindings() const override { return bin_bindings(geometry_, bins_); }
+
+private:
+    Programs& programs_;
+    const Geometry& geometry_;
+    const Bins& bins_;
+    std::string shader_;
+    bool orthographic_;
+    uint32_t items_per_group_;
+    uint32_t ranges_per_prism_;
+};
+
+}  // namespace
+
+std::vector<gpu::Binding> bin_bindings(const Geometry& geometry, const Bins& bins) {
+    return bindings({{"bin_offsets", &bins.offsets, Texel::r32_uint},
+                     {"bin_entries", &bins.entries, Texel::r32_uint},
+                     {"triangles", &geometry.triangles, Texel::rgba32_uint},
+                     {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float}});
+}
+
+uint32_t bin_part_count(const Bins& bins) {
+    return std::max(1u, static_cast<uint32_t>(groups_of(bins.longest, shared::kListChunk)));
+}
+
+std::unique_ptr<RasterStage> walk_bins(Programs& programs, const Geometry& geometry, const Bins& bins,
+                                       const std::string& shader, bool orthographic) {
+    const std::string stage = shader.substr(0, shader.find('@'));
+    if (stage == "raster/conservative") return std::make_unique<WalkBins>(programs, geometry, bins, shader, orthographic, 8, 1);
+    if (stage == "raster/analytic") return std::make_unique<WalkBins>(programs, geometry, bins, shader, orthographic, 1, 4);
+    throw Error(ErrorKind::internal, "no such raster stage", shader, "report this as a bug");
+}
+
+}  // namespace gnomon

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// What finds the elements of an S-buffer's lists: a stage raster/<name> in two passes, count and fill.
+#pragma once
+
+#include <memory>
+
+#include "stages/bin.hpp"
+#include "stages/shadow_map.hpp"
+
+namespace gnomon {
+
+/// Its shader takes RasterParams, and binds RangeCounts, Ticket, the blocks of the layout and `bindings()`.
+class RasterStage {
+public:
+    RasterStage() = default;
+    RasterStage(const RasterStage&) = delete;
+    RasterStage& operator=(const RasterStage&) = delete;
+    virtual ~RasterStage() = default;
+
+    virtual const shared::ViewGrid& grid() const = 0;
+    virtual uint32_t items_per_group() const = 0;
+    virtual uint64_t longest() const = 0;     ///< At most so many elements in one list.
+    virtual uint32_t part_count() const = 0;  ///< Dispatches that walk the longest source list.
+    virtual const char* timing(bool fill) const { return fill ? "raster/fill" : "raster/count"; }
+    virtual const gpu::Program& program(bool fill) const = 0;
+    virtual std::vector<gpu::Binding> bindings() const = 0;
+    virtual std::map<std::string, uint64_t> counts() const { return {}; }  ///< For the report, after the count pass.
+
+    /// Runs of whole blocks of items whose source can be in memory at one time; empty: all items. prepare() makes one's.
+    virtual std::vector<Band> portions() const { return {}; }
+    virtual void prepare(const Band& /*portion*/) {}
+    virtual uint64_t source_bytes() const { return 0; }   ///< Of all portions.
+    virtual uint32_t fragment_base() const { return 0; }  ///< RasterParams::fragment_first.
+};
+
+/// raster/conservative or raster/analytic, which walk the bins, compiled for a layout: "raster/analytic@array".
+std::unique_ptr<RasterStage> walk_bins(Programs& programs, const Geometry& geometry, const Bins& bins,
+                                       const std::string& shader, bool orthographic);
+
+/// What every stage that walks the bins binds.
+std::vector<gpu::Binding> bin_bindings(const Geometry& geometry, const Bins& bins);
+
+/// Dispatches that walk the longest list, kListChunk entries each.
+uint32_t bin_part_count(const Bins& bins);
+
+}  // namespace gnomon
