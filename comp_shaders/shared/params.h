@@ -103,10 +103,20 @@ struct TraceParams {
 
 struct MapDepthParams {
     ViewGrid grid;
-    uint stratum;
+    uint tile_first;  // The batch, as in TraceParams.
+    uint tile_count;
+    uint stratum_first;
+    uint stratum_count;
     uint spp;
     uint seed;
-    uint element_first;  // Where the stratum's samples go.
+    uint element_first;  // Where the batch's samples go: per tile, stratum and texel.
+};
+
+struct ClusterParams {
+    uint tile_count;  // Of the batch.
+    uint spp;
+    uint texel_first;    // Its place among the map's.
+    uint cluster_first;  // The number of its first cluster.
 };
 
 struct CompactParams {

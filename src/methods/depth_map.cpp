@@ -31,7 +31,11 @@ Sampling map_sampling(const LightContext& light, DepthMapKind kind) {
     const bool sliced = kind == DepthMapKind::slices;
     const double spp =
         sliced ? light.parameter("slices").value_or(3000) : light.parameter("map-spp").value_or(light.settings.spp);
-    return {static_cast<uint32_t>(spp), shared::hash_pcg(light.settings.seed ^ shared::hash_pcg(light.light_ix + 1)), sliced};
+    return {static_cast<uint32_t>(spp), map_seed(light), sliced};
+}
+
+uint32_t map_seed(const LightContext& light) {
+    return shared::hash_pcg(light.settings.seed ^ shared::hash_pcg(light.light_ix + 1));
 }
 
 float map_bias(const LightContext& light) {
@@ -39,6 +43,21 @@ float map_bias(const LightContext& light) {
     const double diagonal = glm::length(glm::dvec3(light.bounds.upper) - glm::dvec3(light.bounds.lower));
     const double texel = (light.view.orthographic ? 1.0 : diagonal) / std::min(light.view.scale_x, light.view.scale_y);
     return static_cast<float>(light.parameter("bias").value_or(2.0 * texel));
+}
+
+void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bins& bins, Tracer& tracer,
+                   const Sampling& sampling, bool motion, const Batch& batch, const gpu::Buffer& samples, uint32_t first) {
+    tracer.record(recorder, batch);
+    recorder.dispatch(
+        "map/depth",
+        light.programs.get("methods/depth_map/depth", {light.view.orthographic, tracer.straddle(), motion, sampling.sliced}),
+        bindings({{"hits", &tracer.hits(), Texel::r32_uint},
+                  {"triangles", &light.geometry.triangles, Texel::rgba32_uint},
+                  {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
+                  {"MapSamples", &samples}}),
+        shared::MapDepthParams{bins.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
+                               sampling.spp, sampling.seed, first},
+        groups_of(batch.slot_count(), 64));
 }
 
 DepthMap::DepthMap(const LightContext& light, const Bins& bins, DepthMapKind kind)
@@ -91,18 +110,9 @@ void DepthMap::fill(const Band& band) {
     samples_ = light_.device.allocate("map_samples", band.range_count * sample_bytes());
     gpu::Recorder recorder(light_.device);
     const uint32_t first = band.item_first / tile_count_, count = band.item_count / tile_count_;
-    const uint32_t texels = tile_count_ * shared::kTileTexels;
     for (uint32_t s = 0; s < count; ++s) {
-        tracer_.record(recorder, {0, tile_count_, first + s, 1});
-        recorder.dispatch("map/depth",
-                          light_.programs.get("methods/depth_map/depth",
-                                              {light_.view.orthographic, tracer_.straddle(), motion(), sampling_.sliced}),
-                          bindings({{"hits", &tracer_.hits(), Texel::r32_uint},
-                                    {"triangles", &light_.geometry.triangles, Texel::rgba32_uint},
-                                    {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                    {"MapSamples", &samples_}}),
-                          shared::MapDepthParams{bins_.grid, first + s, sampling_.spp, sampling_.seed, s * texels},
-                          groups_of(texels, 64));
+        record_depths(recorder, light_, bins_, tracer_, sampling_, motion(), {0, tile_count_, first + s, 1}, samples_,
+                      s * tile_count_ * shared::kTileTexels);
     }
     recorder.submit();
 }

@@ -22,8 +22,16 @@ std::vector<Parameter> depth_map_parameters(DepthMapKind kind);
 /// light's own.
 Sampling map_sampling(const LightContext& light, DepthMapKind kind);
 
+/// A seed of the light's own.
+uint32_t map_seed(const LightContext& light);
+
 /// Metres: bias, else twice a texel's width; of a spot's, at a distance of the diagonal of the scene's bounds.
 float map_bias(const LightContext& light);
+
+/// Trace a batch of a light's samples and write their depths to elements [first, ...) of `samples`: a float each, or two, with
+/// the motion.
+void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bins& bins, Tracer& tracer,
+                   const Sampling& sampling, bool motion, const Batch& batch, const gpu::Buffer& samples, uint32_t first);
 
 class DepthMap final : public ShadowMap {
 public:

@@ -7,8 +7,9 @@
 #include <sstream>
 
 #include "methods/depth_map.hpp"
+#include "methods/dsm.hpp"
+#include "methods/ranges.hpp"
 #include "pipeline/memory_plan.hpp"
-#include "stages/prism.hpp"
 
 namespace gnomon {
 namespace {
@@ -24,21 +25,6 @@ uint32_t segment_cells(const LightContext& light) { return light.geometry.segmen
 
 // Ranges may be cut where a cell ends: whatever is fast.
 uint32_t finer_cells(const LightContext& light) { return light_cells(light.geometry.segment_count, light.still); }
-
-std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
-    const std::string shader = light.layout.stage("raster/" + light.raster);
-    const bool orthographic = light.view.orthographic;
-    const std::optional<double> cull = light.parameter("cull-back-faces");
-    if (cull && light.raster != "prism") {
-        throw Error(ErrorKind::usage, "raster '" + light.raster + "' keeps all prisms", "--cull-back-faces",
-                    "leave it out or use --raster prism");
-    }
-    // A quarter for the fragments: the ranges made of them are bound in bands too.
-    auto raster = light.raster == "prism" ? pair_fragments(light.device, light.programs, light.geometry, bins, shader,
-                                                           {orthographic, cull.value_or(0) != 0}, light.bytes / 4)
-                                          : walk_bins(light.programs, light.geometry, bins, shader, orthographic);
-    return std::make_unique<SBuffer>(light.device, light.programs, std::move(raster), light.layout);
-}
 
 // Its prisms are listed as the camera's are, since its view is sampled as the camera's image is.
 Method depth_map_method(const std::string& name, const std::string& summary, const std::string& source, DepthMapKind kind) {
@@ -96,10 +82,31 @@ const std::vector<Method>& methods() {
          .exit_depth = true,
          .light_cells = segment_cells,
          .make_map = make_s_buffer},
+        {.name = "temporal",
+         .summary = "dtr; texels that one triangle covers for the whole shutter, nearest, have no ranges but its name",
+         .source = "Hong and Oh 2017, Extension",
+         .rasters = {"prism"},
+         .shadow_stage = "methods/temporal/shadow",
+         .layout = "linked",
+         .exit_depth = true,
+         .parameters = prism_parameters(),
+         .light_cells = segment_cells,
+         .make_map = make_temporal_map},
         depth_map_method("tsm", "a time-dependent shadow map: one depth per texel and stratum of time, constant bias",
                          "Akenine-Moller et al. 2007, 5", DepthMapKind::stochastic),
         depth_map_method("tsm-dynamic-bias", "tsm, its depths moved to the hit's time", "Andersson et al. 2015, 5.1, eq. 12",
                          DepthMapKind::dynamic_bias),
+        {.name = "dsm",
+         .summary = "a deep shadow map: visibility as a function of depth alone; wrong where receivers move",
+         .source = "Lokovic and Veach 2000; Andersson et al. 2015, 2",
+         .shadow_stage = "methods/dsm/shadow",
+         .fractional = true,
+         .parameters = dsm_parameters(),
+         .light_cells =
+             [](const LightContext& light) {
+                 return camera_cells(dsm_sampling(light).spp, light.geometry.segment_count, light.still);
+             },
+         .make_map = make_deep_shadow_map},
         depth_map_method("accumulate", "hard shadow maps of many times; a hit is tested against that of the nearest",
                          "Haeberli and Akeley 1990", DepthMapKind::slices),
     };

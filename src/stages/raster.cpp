@@ -19,9 +19,8 @@ uint64_t align_down(uint64_t value) { return value / kRangeAlign * kRangeAlign; 
 
 }  // namespace
 
-SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
-                 const std::string& prefix)
-    : device_(device), programs_(programs), raster_(std::move(raster)), layout_(layout), prefix_(prefix) {
+SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout)
+    : device_(device), programs_(programs), raster_(std::move(raster)), layout_(layout) {
     const shared::ViewGrid& grid = raster_->grid();
     item_count_ = grid.tiles_x * grid.tiles_y * grid.cell_count;
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;
@@ -35,8 +34,9 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     const uint64_t list_elements = scanned ? scan_bytes(list_count_) / 4 : list_count_;
     for (const LayoutBuffer& description : layout_.buffers) {
         uint64_t bytes = description.per == LayoutBuffer::Per::list ? list_elements * description.element_bytes : 4;
-        gpu::Buffer buffer =
-            description.per == LayoutBuffer::Per::range ? gpu::Buffer() : device.allocate(prefix_ + description.block, bytes);
+        gpu::Buffer buffer = description.per == LayoutBuffer::Per::range
+                                 ? gpu::Buffer()
+                                 : device.allocate("s_buffer." + description.block, bytes);
         memory_.push_back({description, std::move(buffer)});
     }
     count();
@@ -214,7 +214,8 @@ void SBuffer::fill(const Band& band) {
     for (Memory& m : memory_) {
         if (m.description.per != LayoutBuffer::Per::range) continue;
         m.buffer = gpu::Buffer();
-        m.buffer = device_.allocate(prefix_ + m.description.block, std::max<uint64_t>(1, held) * m.description.element_bytes);
+        m.buffer =
+            device_.allocate("s_buffer." + m.description.block, std::max<uint64_t>(1, held) * m.description.element_bytes);
     }
     gpu::Recorder recorder(device_);
     for (const Memory& m : memory_) {

@@ -9,10 +9,9 @@ namespace gnomon {
 
 class SBuffer final : public ShadowMap {
 public:
-    /// Count the ranges of all lists. raster: compiled for the layout; prefix: of the names of the buffers.
+    /// Count the ranges of all lists. raster: compiled for the layout.
     /// Errors: ErrorKind::out_of_memory where one block of tiles alone is too much for the device.
-    SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
-            const std::string& prefix = "s_buffer.");
+    SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout);
 
     uint64_t range_count() const { return range_count_; }
     uint64_t list_count() const { return list_count_; }
@@ -47,7 +46,6 @@ private:
     Programs& programs_;
     std::unique_ptr<RasterStage> raster_;
     Layout layout_;
-    std::string prefix_;
     std::vector<Band> portions_;    ///< The raster stage's; all items, where it has none.
     size_t prepared_ = ~size_t(0);  ///< Which of them is.
     uint32_t item_count_ = 0;

@@ -3,8 +3,8 @@
 // Purpose: the depth of each sample of a light's view, metres along the view's axis, and with kMotion how far its surface moves along the axis during the shutter.
 //          Where nothing was hit: farther than everything, at rest.
 // Reads:   hits, triangles, raster_vertices
-// Writes:  MapSamples (per stratum, tile and texel, rows from the top)
-// Grid:    one invocation per sample of one stratum
+// Writes:  MapSamples (per tile, stratum and texel of the batch, rows from the top)
+// Grid:    one invocation per sample of the batch
 // Based on: Akenine-Moller et al. 2007, "Stochastic rasterization using time-continuous triangles", section 5; motion: Andersson et al. 2015, section 5.1
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
@@ -29,20 +29,21 @@ float metres_of(vec4 p) { return kOrthographic ? p.z : p.w; }
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     ViewGrid grid = params.grid;
-    bool inside = i < grid.tiles_x * grid.tiles_y * kTileTexels;
+    bool inside = i < params.tile_count * params.stratum_count * kTileTexels;
     i = inside ? i : 0u;
     uint entry = texelFetch(hits, int(i)).x;
     bool hit = entry != kNone;
     entry = hit ? entry & ~kReversed : grid.triangle_count;
-    Slot s = unpack_slot(i, 1u);
-    uvec2 texel = slot_pixel(s, 0u, grid.tiles_x);
-    vec3 point = view_sample(kSliced, texel.x, texel.y, params.stratum, params.spp, params.seed);
-    Receiver h = fetch_receiver(entry, texel, point, params.stratum, params.spp, grid, kStraddle, kOrthographic);
+    Slot s = unpack_slot(i, params.stratum_count);
+    uvec2 texel = slot_pixel(s, params.tile_first, grid.tiles_x);
+    uint stratum = params.stratum_first + s.stratum;
+    vec3 point = view_sample(kSliced, texel.x, texel.y, stratum, params.spp, params.seed);
+    Receiver h = fetch_receiver(entry, texel, point, stratum, params.spp, grid, kStraddle, kOrthographic);
     MovingTriangle m = fetch_moving_triangle(entry, h.segment * grid.vertex_stride, grid.vertex_stride);
     float a = h.barycentrics.x * metres_of(m.a0) + h.barycentrics.y * metres_of(m.a1) + h.barycentrics.z * metres_of(m.a2);
     float d = h.barycentrics.x * metres_of(m.d0) + h.barycentrics.y * metres_of(m.d1) + h.barycentrics.z * metres_of(m.d2);
 
-    uint at = params.element_first + s.tile * kTileTexels + s.row * kTileSize + s.column;
+    uint at = params.element_first + (s.tile * params.stratum_count + s.stratum) * kTileTexels + s.row * kTileSize + s.column;
     float depth = hit ? a + h.local_time * d : kFarthest;
     if (inside) {
         if (kMotion) {

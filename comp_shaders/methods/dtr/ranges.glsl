@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Do the ranges of a hit's list occlude it? One of another triangle whose time includes the hit's does where the depth between its entry and its exit, interpolated
+// linearly, is nearer. Needs: GN_RANGE_EXIT, common/shadow_test.glsl, common/list.glsl
+// Based on: Hong and Oh 2018, "Motion-blurred shadows utilizing a depth-time ranges shadow map", section 3.3
+
+// Hit `i` of the queue; its list is walked if `walk`.
+bool occluded_by_ranges(uint i, ShadowTest test, bool walk, inout uint visited, inout uint tested) {
+    float t = test.receiver.t;
+    // Ranges hold metres along the view's axis, which a perspective view's depth is not.
+    float limit = kOrthographic ? test.limit : -1.0 / test.limit;
+    float metres_near = kOrthographic ? params.depth_near : -1.0 / params.depth_near;
+    bool occluded = false;
+    ListIterator it = layout_begin(test.here ? test.list : params.item_first * kTileTexels);
+    if (kResume && params.part > 0u) it = iterators[i];
+    uint steps = 0u;
+    bool more = test.here && walk && layout_more(it);
+    while (more) {
+        float exit_depth = layout_exit_depth(it);
+        vec4 range = layout_next(it);
+        bool candidate = t >= range.x && t <= range.y && (floatBitsToUint(range.w) & ~kReversed) != test.own;
+        float depth = mix(range.z, exit_depth, (t - range.x) / max(range.y - range.x, 1e-30));
+        occluded = occluded || (candidate && depth > metres_near && depth < limit);
+        if (kCount) ++visited;
+        if (kCount) tested += candidate ? 1u : 0u;
+        ++steps;
+        more = layout_more(it) && !occluded && (!kResume || steps < kListChunk);
+    }
+    // What is occluded has no more to walk.
+    if (kResume && i < params.hit_count) {
+        if (occluded) {
+            it = layout_end();
+        }
+        iterators[i] = it;
+    }
+    return occluded;
+}

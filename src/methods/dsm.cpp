@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "methods/dsm.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <gnomon/error.hpp>
+#include <sstream>
+
+#include "methods/depth_map.hpp"
+#include "stages/grid.hpp"
+#include "stages/scan.hpp"
+
+namespace gnomon {
+namespace {
+
+using gpu::Texel;
+
+// Bytes of the samples that are clustered at one time.
+constexpr uint64_t kBatchBytes = 32ull << 20;
+
+class DeepShadowMap final : public ShadowMap {
+public:
+    DeepShadowMap(const LightContext& light, const Bins& bins);
+
+    ItemOrder order() const override { return {}; }
+    uint32_t item_count() const override { return tile_count_; }
+    uint64_t longest() const override { return sampling_.spp; }
+    std::vector<Band> bands(uint64_t /*bytes*/) const override { return {{0, tile_count_, 0, cluster_count_}}; }
+    void fill(const Band& /*band*/) override {}
+    std::map<std::string, uint64_t> counts() const override {
+        return {{"map_samples", uint64_t(tile_count_) * shared::kTileTexels * sampling_.spp},
+                {"clusters", cluster_count_},
+                {"map_bytes", offsets_.bytes() + cluster_count_ * sizeof(glm::vec2)}};
+    }
+    std::map<std::string, std::string> effective() const override {
+        std::ostringstream bias, extent;
+        bias << map_bias(light_);
+        extent << dsm_extent(light_);
+        return {{"map_spp", std::to_string(sampling_.spp)}, {"bias", bias.str()}, {"cluster", extent.str()}};
+    }
+    std::vector<gpu::Binding> read_bindings() const override {
+        return {{"offsets", &offsets_, Texel::r32_uint}, {"clusters", &clusters_, Texel::rg32_float}};
+    }
+    std::vector<uint32_t> test_constants() const override { return {std::bit_cast<uint32_t>(map_bias(light_))}; }
+
+private:
+    gpu::Buffer make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch);
+
+    const LightContext& light_;
+    const Bins& bins_;
+    Sampling sampling_;
+    uint32_t tile_count_;
+    uint64_t cluster_count_ = 0;
+    gpu::Buffer offsets_, clusters_, unbound_;
+};
+
+DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
+    : light_(light),
+      bins_(bins),
+      sampling_(dsm_sampling(light)),
+      tile_count_(bins.grid.tiles_x * bins.grid.tiles_y),
+      unbound_(light.device.allocate("unbound", 16)) {
+    gpu::Device& device = light.device;
+    const uint64_t texels = uint64_t(tile_count_) * shared::kTileTexels;
+    offsets_ = device.allocate("map_offsets", (texels + 1) * 4);
+    const uint64_t tile_bytes = uint64_t(sampling_.spp) * shared::kTileTexels * 4;
+    const auto step = static_cast<uint32_t>(std::clamp<uint64_t>(kBatchBytes / tile_bytes, 1, tile_count_));
+    std::vector<gpu::Buffer> pieces;
+    {
+        Tracer tracer(device, light.programs, light.geometry, light.view, bins, "map/trace", sampling_,
+                      uint64_t(step) * sampling_.spp * shared::kTileTexels);
+        const gpu::Buffer samples = device.allocate("map_samples", step * tile_bytes);
+        for (uint32_t tile = 0; tile < tile_count_; tile += step)
+            pieces.push_back(make_clusters(tracer, samples, {tile, std::min(step, tile_count_ - tile), 0, sampling_.spp}));
+    }
+    if (cluster_count_ > std::min<uint64_t>(device.limits().max_texels, 0xffffffffull)) {
+        throw Error(ErrorKind::out_of_memory, std::to_string(cluster_count_) + " clusters in a light's map", "shadow map",
+                    "use a smaller --shadow-res or a larger --cluster");
+    }
+    clusters_ = device.allocate("clusters", cluster_count_ * sizeof(glm::vec2));
+    gpu::Recorder recorder(device);
+    uint64_t at = 0;
+    for (const gpu::Buffer& piece : pieces) {
+        if (piece.bytes() >= sizeof(glm::vec2)) recorder.copy("map/cluster", piece, 0, clusters_, at, piece.bytes());
+        at += piece.bytes();
+    }
+    recorder.fill("map/cluster", offsets_, static_cast<uint32_t>(cluster_count_), texels * 4, 4);
+    recorder.submit();
+}
+
+// The clusters of the batch's texels, as many bytes as they need, and their texels' offsets.
+gpu::Buffer DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch) {
+    gpu::Device& device = light_.device;
+    const uint32_t texels = batch.tile_count * shared::kTileTexels;
+    const uint32_t extent = std::bit_cast<uint32_t>(dsm_extent(light_));
+    const gpu::Buffer counts = device.allocate("cluster_counts", scan_bytes(texels));
+    const shared::ClusterParams params{batch.tile_count, sampling_.spp, batch.tile_first * shared::kTileTexels,
+                                       static_cast<uint32_t>(cluster_count_)};
+    const auto record = [&](gpu::Recorder& recorder, bool fill, const gpu::Buffer& clusters) {
+        recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill, extent}),
+                          bindings({{"map_samples", &samples, Texel::r32_float},
+                                    {"scanned", fill ? &counts : &unbound_, Texel::r32_uint},
+                                    {"Counts", fill ? &unbound_ : &counts},
+                                    {"Clusters", &clusters},
+                                    {"Offsets", fill ? &offsets_ : &unbound_}}),
+                          params, groups_of(texels, 64));
+    };
+    gpu::Recorder recorder(device);
+    record_depths(recorder, light_, bins_, tracer, sampling_, false, batch, samples, 0);
+    recorder.fill("map/cluster", counts, 0);
+    record(recorder, false, unbound_);
+    const Scan scan = record_scan(device, light_.programs, recorder, counts, texels);
+    recorder.submit();
+    const uint32_t found = gpu::download_vector<uint32_t>(device, counts, 1, uint64_t(texels) * 4)[0];
+    gpu::Buffer clusters = device.allocate("cluster_pieces", found * sizeof(glm::vec2));
+    record(recorder, true, clusters);
+    recorder.submit();
+    cluster_count_ += found;
+    return clusters;
+}
+
+}  // namespace
+
+std::vector<Parameter> dsm_parameters() {
+    std::vector<Parameter> parameters = depth_map_parameters(DepthMapKind::stochastic);
+    parameters[0] = {"map-spp", "samples", "Samples per texel of the map, at random times", "128", 1, 176, true};
+    parameters.push_back({"cluster", "metres", "Along the light's axis; samples that lie together within it are one occluder",
+                          "half the bias", 0, 1e6});
+    return parameters;
+}
+
+Sampling dsm_sampling(const LightContext& light) {
+    return {static_cast<uint32_t>(light.parameter("map-spp").value_or(128)), map_seed(light)};
+}
+
+float dsm_extent(const LightContext& light) {
+    return static_cast<float>(light.parameter("cluster").value_or(0.5 * static_cast<double>(map_bias(light))));
+}
+
+std::unique_ptr<ShadowMap> make_deep_shadow_map(const LightContext& light, const Bins& bins) {
+    return std::make_unique<DeepShadowMap>(light, bins);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/coverage.hpp"
+
+#include <algorithm>
+
+#include "stages/grid.hpp"
+#include "stages/raster_stage.hpp"
+
+namespace gnomon {
+
+CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins,
+                          bool orthographic, bool cull_back_faces) {
+    const uint32_t items = bins.grid.tiles_x * bins.grid.tiles_y * bins.grid.cell_count;
+    const uint64_t item_bytes = uint64_t(shared::kTileTexels) * 4, bytes = items * item_bytes;
+    CoverageMap map;
+    map.nearest_depths = device.allocate("nearest_depths", bytes);
+    map.nearest_triangles = device.allocate("nearest_triangles", bytes);
+    map.coverage = device.allocate("coverage", bytes);
+    const gpu::Buffer ticket = device.allocate("ticket", 4);
+    gpu::Recorder recorder(device);
+    for (const gpu::Buffer* buffer : {&map.nearest_depths, &map.nearest_triangles, &map.coverage})
+        recorder.fill("raster/coverage", *buffer, shared::kNone);
+    const auto most = static_cast<uint32_t>(device.limits().max_storage_range / item_bytes);
+    for (uint32_t first = 0; first < items; first += std::min(most, items - first)) {
+        const uint32_t count = std::min(most, items - first);
+        std::vector<gpu::Binding> all = bin_bindings(geometry, bins);
+        all.push_back({"Ticket", &ticket});
+        all.push_back({"NearestDepths", &map.nearest_depths, {}, first * item_bytes, count * item_bytes});
+        all.push_back({"NearestTriangles", &map.nearest_triangles, {}, first * item_bytes, count * item_bytes});
+        all.push_back({"Coverage", &map.coverage, {}, first * item_bytes, count * item_bytes});
+        for (uint32_t pass = 0; pass < 4; ++pass) {
+            for (uint32_t part = 0; part < bin_part_count(bins); ++part) {
+                recorder.fill("raster/coverage", ticket, 0);
+                recorder.dispatch("raster/coverage", programs.get("raster/coverage", {pass, orthographic, cull_back_faces}),
+                                  all, shared::RasterParams{bins.grid, count, first, part * shared::kListChunk, 0, 0},
+                                  groups_of(count, 8));
+            }
+        }
+    }
+    recorder.submit();
+    const auto covering = gpu::download_vector<uint32_t>(device, map.coverage, bytes / 4);
+    map.covered = covering.size() - static_cast<uint64_t>(std::count(covering.begin(), covering.end(), shared::kNone));
+    return map;
+}
+
+}  // namespace gnomon
