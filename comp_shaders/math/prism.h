@@ -61,7 +61,10 @@ struct PrismSurface {
     vec3 end_metres;
 };
 
-GN_FN float cross2(vec2 a, vec2 b) { return a.x * b.y - a.y * b.x; }
+GN_FN float cross2(vec2 a, vec2 b) {
+    GN_PRECISE float c = a.x * b.y - a.y * b.x;
+    return c;
+}
 
 GN_FN vec2 image_point(vec3 p) { return vec2(p.x, p.y) / p.z; }
 

@@ -13,18 +13,21 @@ namespace gnomon {
 
 using gpu::Texel;
 
+Parameter bias_parameter() {
+    return {"bias",
+            "metres",
+            "Along the light's axis; what is nearer to a hit than this does not shadow it",
+            "two texels' width; a spot's at a distance of the scene's diagonal",
+            0,
+            1e6};
+}
+
 std::vector<Parameter> depth_map_parameters(DepthMapKind kind) {
-    const Parameter bias = {"bias",
-                            "metres",
-                            "Along the light's axis; what is nearer to a hit than this does not shadow it",
-                            "two texels' width; a spot's at a distance of the scene's diagonal",
-                            0,
-                            1e6};
     if (kind == DepthMapKind::slices)
-        return {{"slices", "maps", "Hard shadow maps, each of one time", "3000", 1, 65536, true}, bias};
+        return {{"slices", "maps", "Hard shadow maps, each of one time", "3000", 1, 65536, true}, bias_parameter()};
     return {{"map-spp", "samples", "Samples per texel of the map, one in each stratum of the shutter", "the camera's --spp", 1,
              4096, true},
-            bias};
+            bias_parameter()};
 }
 
 Sampling map_sampling(const LightContext& light, DepthMapKind kind) {

@@ -15,6 +15,9 @@ enum class DepthMapKind {
     slices,        ///< accumulate
 };
 
+/// The constant bias of all methods that compare depths.
+Parameter bias_parameter();
+
 /// map-spp or slices, and bias.
 std::vector<Parameter> depth_map_parameters(DepthMapKind kind);
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/ranges.hpp"
 
+#include <bit>
 #include <gnomon/error.hpp>
+#include <sstream>
 
+#include "methods/depth_map.hpp"
 #include "stages/coverage.hpp"
 #include "stages/prism.hpp"
 
@@ -27,12 +30,14 @@ SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer*
             light.layout};
 }
 
-class TemporalMap final : public ShadowMap {
+class RangeMap final : public ShadowMap {
 public:
-    TemporalMap(const LightContext& light, const Bins& bins)
-        : coverage_(make_coverage(light.device, light.programs, light.geometry, bins, light.view.orthographic,
-                                  culls_back_faces(light))),
-          ranges_(s_buffer(light, bins, &coverage_.coverage)) {}
+    RangeMap(const LightContext& light, const Bins& bins, bool covered)
+        : coverage_(covered ? make_coverage(light.device, light.programs, light.geometry, bins, light.view.orthographic,
+                                            culls_back_faces(light))
+                            : CoverageMap()),
+          ranges_(s_buffer(light, bins, covered ? &coverage_.coverage : nullptr)),
+          bias_(map_bias(light)) {}
 
     ItemOrder order() const override { return ranges_.order(); }
     uint32_t item_count() const override { return ranges_.item_count(); }
@@ -42,38 +47,60 @@ public:
     uint32_t range_base() const override { return ranges_.range_base(); }
     std::map<std::string, uint64_t> counts() const override {
         std::map<std::string, uint64_t> counts = ranges_.counts();
-        counts["covered_texels"] = coverage_.covered;
-        counts["map_bytes"] += coverage_.bytes();
+        if (coverage_.coverage) {
+            counts["covered_texels"] = coverage_.covered;
+            counts["map_bytes"] += coverage_.bytes();
+        }
         return counts;
+    }
+    std::map<std::string, std::string> effective() const override {
+        std::ostringstream bias;
+        bias << bias_;
+        return {{"bias", bias.str()}};
     }
     std::vector<gpu::Binding> read_bindings() const override {
         std::vector<gpu::Binding> all = ranges_.read_bindings();
-        all.push_back({"coverage", &coverage_.coverage, gpu::Texel::r32_uint});
+        if (coverage_.coverage) all.push_back({"coverage", &coverage_.coverage, gpu::Texel::r32_uint});
         return all;
     }
+    std::vector<uint32_t> test_constants() const override { return {std::bit_cast<uint32_t>(bias_)}; }
 
 private:
     CoverageMap coverage_;
     SBuffer ranges_;
+    float bias_;
 };
 
-}  // namespace
-
-std::vector<Parameter> prism_parameters() {
-    return {{kCullBackFaces, "0 or 1", "Leave out triangles that the light sees from behind at both ends of their motion", "0",
-             0, 1, true}};
-}
-
-std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
+void check_culling(const LightContext& light) {
     if (light.parameter(kCullBackFaces) && light.raster != "prism") {
         throw Error(ErrorKind::usage, "raster '" + light.raster + "' keeps all prisms", "--cull-back-faces",
                     "leave it out or use --raster prism");
     }
+}
+
+}  // namespace
+
+std::vector<Parameter> dtr_parameters(bool prisms) {
+    std::vector<Parameter> parameters = {bias_parameter()};
+    if (prisms) {
+        parameters.push_back({kCullBackFaces, "0 or 1",
+                              "Leave out triangles that the light sees from behind at both ends of their motion", "0", 0, 1,
+                              true});
+    }
+    return parameters;
+}
+
+std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
     return std::unique_ptr<SBuffer>(new SBuffer(s_buffer(light, bins, nullptr)));
 }
 
+std::unique_ptr<ShadowMap> make_dtr_map(const LightContext& light, const Bins& bins) {
+    check_culling(light);
+    return std::make_unique<RangeMap>(light, bins, false);
+}
+
 std::unique_ptr<ShadowMap> make_temporal_map(const LightContext& light, const Bins& bins) {
-    return std::make_unique<TemporalMap>(light, bins);
+    return std::make_unique<RangeMap>(light, bins, true);
 }
 
 }  // namespace gnomon

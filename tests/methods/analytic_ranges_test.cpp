@@ -2,9 +2,9 @@
 // raster/analytic at texel centres: a triangle has a range at just those times at which the oracle sees it there, and the
 // depths at its ends are the oracle's.
 #include <algorithm>
-#include <map>
 #include <unordered_map>
 
+#include "lists.hpp"
 #include "soup.hpp"
 #include "stage_test.hpp"
 #include "stages/raster.hpp"
@@ -12,16 +12,10 @@
 namespace gnomon::test {
 namespace {
 
-struct ExitRange {
-    float enter, leave, enter_depth;
-    uint32_t entry;
-    float exit_depth = 0.0f;
-};
 using Lists = std::vector<std::vector<ExitRange>>;
 
 class AnalyticRangesTest : public StageTest {
 protected:
-    // The lists of layout "array", read on the host.
     Lists lists_of(const Soup& soup) {
         const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
         const Bins bins = bin_prisms(device(), programs(), geometry, soup.view(), soup.segments());
@@ -31,20 +25,7 @@ protected:
         const std::vector<Band> bands = s_buffer.bands(1ull << 40);
         EXPECT_EQ(bands.size(), 1u);
         s_buffer.fill(bands[0]);
-        std::map<std::string_view, const gpu::Buffer*> buffers;
-        for (const gpu::Binding& binding : s_buffer.read_bindings()) buffers[binding.name] = binding.buffer;
-        const auto offsets = gpu::download_vector<uint32_t>(device(), *buffers.at("list_offsets"), s_buffer.list_count() + 1);
-        const auto ranges = gpu::download_vector<glm::vec4>(device(), *buffers.at("ranges"), s_buffer.range_count());
-        const auto exits = gpu::download_vector<float>(device(), *buffers.at("range_exits"), s_buffer.range_count());
-        EXPECT_EQ(offsets.back(), s_buffer.range_count());
-        Lists lists(s_buffer.list_count());
-        for (size_t i = 0; i < lists.size(); ++i) {
-            for (uint32_t r = offsets[i]; r < offsets[i + 1]; ++r) {
-                const glm::vec4& v = ranges[r];
-                lists[i].push_back({v.x, v.y, v.z, std::bit_cast<uint32_t>(v.w), exits[r]});
-            }
-        }
-        return lists;
+        return read_exit_ranges(device(), s_buffer);
     }
 };
 

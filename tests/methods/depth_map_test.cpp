@@ -129,7 +129,8 @@ TEST_F(DepthMapTest, SamplesAreWhatTheOracleSees) {
                 RenderSettings settings;
                 settings.parameters[sliced ? "slices" : "map-spp"] = 7;
                 const Method& method = find_method(motion ? "tsm-dynamic-bias" : sliced ? "accumulate" : "tsm");
-                const LightContext light{device(), programs(), geometry, settings, method, view, bounds, 0, false, {}, ""};
+                const LightContext light{device(), programs(), geometry, settings,   method, view,
+                                         bounds,   0,          false,    1ull << 30, {},     ""};
                 const Bins bins = bin_prisms(device(), programs(), geometry, view, method.light_cells(light));
                 DepthMap map(light, bins, kind);
                 const std::vector<MapSample> samples = map_samples(device(), map, motion, 1ull << 40);

@@ -3,6 +3,7 @@
 #include "lists.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <gnomon/error.hpp>
 
 #include "oracle/prefix_sum.hpp"
@@ -58,6 +59,20 @@ std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBu
         lists.emplace_back(ranges.begin() + static_cast<ptrdiff_t>(sums[i]),
                            ranges.begin() + static_cast<ptrdiff_t>(sums[i + 1]));
         std::sort(lists.back().begin(), lists.back().end());
+    }
+    return lists;
+}
+
+std::vector<std::vector<ExitRange>> read_exit_ranges(gpu::Device& device, const SBuffer& s_buffer) {
+    std::map<std::string_view, const gpu::Buffer*> buffers;
+    for (const gpu::Binding& binding : s_buffer.read_bindings()) buffers[binding.name] = binding.buffer;
+    const auto offsets = gpu::download_vector<uint32_t>(device, *buffers.at("list_offsets"), s_buffer.list_count() + 1);
+    const auto ranges = gpu::download_vector<glm::vec4>(device, *buffers.at("ranges"), s_buffer.range_count());
+    const auto exits = gpu::download_vector<float>(device, *buffers.at("range_exits"), s_buffer.range_count());
+    std::vector<std::vector<ExitRange>> lists(s_buffer.list_count());
+    for (size_t i = 0; i < lists.size(); ++i) {
+        for (uint32_t r = offsets[i]; r < offsets[i + 1]; ++r)
+            lists[i].push_back({ranges[r].x, ranges[r].y, ranges[r].z, std::bit_cast<uint32_t>(ranges[r].w), exits[r]});
     }
     return lists;
 }

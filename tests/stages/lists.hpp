@@ -23,4 +23,13 @@ struct RangeRecord {
 std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBuffer& s_buffer, const std::string& layout,
                                                   const Band& band);
 
+struct ExitRange {
+    float enter, leave, enter_depth;
+    uint32_t entry;
+    float exit_depth = 0.0f;
+};
+
+/// All ranges, filled, of layout "array" with exit depths; per list, in their order there.
+std::vector<std::vector<ExitRange>> read_exit_ranges(gpu::Device& device, const SBuffer& s_buffer);
+
 }  // namespace gnomon::test

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Methods dtr and temporal in whole frames.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <gnomon/error.hpp>
+
+#include "layouts/layout.hpp"
+#include "support/two_cubes.hpp"
+
+namespace gnomon::test {
+namespace {
+
+class DtrTest : public TwoCubes<> {
+protected:
+    DtrTest() : TwoCubes(96, 64, 8) {
+        settings.keep_samples = true;
+        settings.shadow_res = 200;
+    }
+
+    Frame render(const std::string& method) {
+        settings.method = method;
+        return renderer().render(scene, poses, settings);
+    }
+
+    /// Of the samples that hit, the share whose light differs.
+    static double differing(const Frame& a, const Frame& b) {
+        double hits = 0.0, differ = 0.0;
+        for (size_t i = 0; i < a.samples.size(); ++i) {
+            EXPECT_EQ(a.samples[i].triangle, b.samples[i].triangle);
+            if (a.samples[i].triangle == SampleRecord::kMiss) continue;
+            hits += 1.0;
+            differ += a.samples[i].lit != b.samples[i].lit ? 1.0 : 0.0;
+        }
+        return differ / hits;
+    }
+};
+
+// Equation 2 of the paper of 2018, with a list per segment.
+TEST_F(DtrTest, MemoryIsThePapersToTheByte) {
+    const Frame frame = render("dtr");
+    EXPECT_EQ(frame.effective.at("layout"), "linked");
+    EXPECT_EQ(frame.effective.at("raster"), "prism");
+    const auto& counts = frame.stats.counts;
+    const uint64_t segments = poses.size() - 1, texels = uint64_t(200) * 200 * segments;
+    const uint64_t paper = counts.at("fragments.0") * 16 + counts.at("ranges.0") * 24 + 2 * texels * 4;
+    uint64_t allocated = 0;
+    for (const char* name : {"FragmentHeads", "Fragments", "ListHeads", "Ranges", "Links", "RangeExits"})
+        allocated += frame.stats.buffer_bytes.at(std::string("s_buffer.") + name);
+    EXPECT_EQ(allocated, paper);
+    EXPECT_EQ(counts.at("map_bytes.0"), paper);
+    EXPECT_EQ(counts.at("fragments_left_over.0"), 0u);
+    EXPECT_EQ(counts.at("ranges.0") * 2, counts.at("fragments.0"));
+}
+
+// The cubes' sides are planar: they only translate.
+TEST_F(DtrTest, IsDtrAnalyticWhereSidesArePlanar) {
+    const Frame prism = render("dtr"), analytic = render("dtr-analytic");
+    EXPECT_EQ(prism.stats.counts.at("ranges.0"), analytic.stats.counts.at("ranges.0"));
+    EXPECT_LE(differing(prism, analytic), 2e-4);
+}
+
+// The share of wrong samples of cubes that move toward the light, all with the bias that surfaces at rest need.
+TEST_F(DtrTest, DoesNotShadowWhatMovesTowardTheLight) {
+    settings.shadow_res = 2048;
+    const Frame exact = render("exact");
+    settings.parameters["bias"] = 0.1;
+    std::map<std::string, double> wrong;
+    for (const char* method : {"tsm", "dtr", "dtr-analytic", "temporal"}) {
+        wrong[method] = differing(render(method), exact);
+        RecordProperty(method, std::to_string(wrong[method]));
+    }
+    EXPECT_GT(wrong["tsm"], 0.01);
+    EXPECT_LT(wrong["dtr"], wrong["tsm"] / 3.0);
+    EXPECT_LT(wrong["dtr-analytic"], wrong["tsm"] / 3.0);
+    // What covers a texel at its centre shadows its neighbours in the same texel, without regard to depth.
+    EXPECT_GT(wrong["temporal"], wrong["dtr"]);
+    EXPECT_LT(wrong["temporal"], 0.05);
+}
+
+TEST_F(DtrTest, MemoryAndLayoutsDoNotMatter) {
+    settings.shadow_res = 400;
+    for (const char* method : {"dtr", "temporal"}) {
+        settings.memory_budget = 0;
+        settings.layout = "auto";
+        const Frame expected = render(method);
+        for (const std::string& layout : layout_names()) {
+            settings.layout = layout;
+            expect_same_bits(render(method), expected);
+        }
+        settings.layout = "auto";
+        settings.memory_budget = 16u << 20;
+        const Frame cut = render(method);
+        expect_same_bits(cut, expected);
+        if (std::string_view(method) == "dtr") {
+            EXPECT_LT(cut.stats.buffer_bytes.at("s_buffer.Fragments"), expected.stats.buffer_bytes.at("s_buffer.Fragments"))
+                << "no bands";
+        }
+    }
+}
+
+TEST_F(DtrTest, CoverageMapSavesRangesAndChangesLittle) {
+    const Frame dtr = render("dtr"), temporal = render("temporal");
+    const auto &with = temporal.stats.counts, &without = dtr.stats.counts;
+    RecordProperty("ranges", std::to_string(without.at("ranges.0")) + " -> " + std::to_string(with.at("ranges.0")));
+    EXPECT_GT(with.at("covered_texels.0"), 1000u);
+    EXPECT_LT(with.at("ranges.0"), without.at("ranges.0") / 2);
+    const double changed = differing(dtr, temporal);
+    RecordProperty("changed", std::to_string(changed));
+    EXPECT_LT(changed, 0.1);
+    EXPECT_GT(changed, 0.0) << "texels are covered where their centres are";
+}
+
+// Of a closed mesh about half is seen from behind.
+TEST_F(DtrTest, BackFacesCanBeLeftOut) {
+    const uint64_t all = render("dtr").stats.counts.at("ranges.0");
+    settings.parameters["cull-back-faces"] = 1;
+    const uint64_t front = render("dtr").stats.counts.at("ranges.0");
+    EXPECT_LT(front, all);
+    EXPECT_GT(front, all / 4);
+    settings.raster = "analytic";
+    EXPECT_THROW(render("dtr"), Error);
+}
+
+}  // namespace
+}  // namespace gnomon::test
