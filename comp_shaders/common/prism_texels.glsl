@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rasterizing prisms by their triangulated surface (math/prism.h): every texel centre that a prism of an item's list covers is visited, once. The list holds prisms
-// by their bounds, each once. 8 invocations per item, each with prisms of its own. Needs: void visit(uint list, uint triangle, PrismFragments fragments)
+// by their bounds, each once. 8 invocations per item, each with prisms of its own; of the last ones
+// of a list, invocations share the rows of one. Needs: void visit(uint list, uint triangle, PrismFragments fragments)
 #include "math/prism.h"
 
 layout(local_size_x = 64) in;
@@ -49,20 +50,23 @@ void visit_texels(uint number) {
 
     uint k = texelFetch(bin_offsets, int(item)).x + params.list_first;
     uint end = inside ? min(texelFetch(bin_offsets, int(item + 1u)).x, k + kListChunk) : 0u;
-    k += gl_LocalInvocationID.x & 7u;
+    uint lane = gl_LocalInvocationID.x & 7u;
     while (k < end) {
-        uint entry = texelFetch(bin_entries, int(k)).x & ~kReversed;
+        uint share = max(8u / (end - k), 1u);  // Invocations of one prism.
+        uint number_here = lane / share;
+        bool own = number_here < end - k;
+        uint entry = texelFetch(bin_entries, int(min(k + number_here, end - 1u))).x & ~kReversed;
         CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
         PrismSurface surface = prism_surface(c, centre.x, centre.y, kOrthographic);
         uvec4 texels = covered_texels(c, centre, grid_extent(grid));
         uvec2 last = min(texels.zw, most);
-        uvec2 at = texels.xy;
-        bool more = at.x <= last.x && at.y <= last.y && !is_culled(c);
+        uvec2 at = uvec2(texels.x, texels.y + lane % share);
+        bool more = own && at.x <= last.x && at.y <= last.y && !is_culled(c);
         while (more) {
             PrismFragments fragments = fragments_at(surface, float(at.x) - 3.5, float(at.y) - 3.5, kOrthographic ? -kFarthest : 0.0);
             if (fragments.covered != 0u) visit(list_first + at.y * kTileSize + at.x, entry, fragments);
             bool row_ends = at.x == last.x;
-            at = row_ends ? uvec2(texels.x, at.y + 1u) : at + uvec2(1u, 0u);
+            at = row_ends ? uvec2(texels.x, at.y + share) : at + uvec2(1u, 0u);
             more = at.y <= last.y;
         }
         k += 8u;

@@ -219,7 +219,9 @@ TEST_F(PrismRangesTest, AreTheFragmentsOfATexelTwoAndTwo) {
             };
             EXPECT_TRUE(about(counts.at("fragments"), fragments)) << counts.at("fragments") << ", " << fragments;
             EXPECT_TRUE(about(counts.at("ranges"), ranges)) << counts.at("ranges") << ", " << ranges;
-            if (orthographic) EXPECT_LE(counts.at("fragments_left_over"), fragments / 500);
+            if (orthographic) {
+                EXPECT_LE(counts.at("fragments_left_over"), fragments / 500);
+            }
             EXPECT_LE(counts.at("fragments_left_over"), left_over);
 
             // A block of items at a time: the same ranges.
