@@ -3,28 +3,48 @@
 #pragma once
 
 #include <cstdint>
-#include <gnomon/render.hpp>
+#include <optional>
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
 namespace gnomon::io {
 
-/// The error of values a against the reference b, over the n pixels where both are finite, in double precision. Without any
-/// such pixel the errors are 0.
-struct ChannelError {
-    std::string name;
-    double rmse = 0.0;        ///< sqrt(sum (a - b)^2 / n)
-    double max = 0.0;         ///< max |a - b|
-    double psnr = 0.0;        ///< 20 log10(peak / rmse) in dB, peak = max |b|, or 1 where that is 0; infinite where rmse is 0.
-    double rel_mse = 0.0;     ///< sum ((a - b)^2 / (b^2 + 0.01)) / n
-    uint64_t compared = 0;    ///< n
-    uint64_t not_finite = 0;  ///< Pixels where a or b is NaN or infinite: in none of the errors above.
+/// What sampling noise has in an error: the variances of both images, mean over the pixels.
+struct NoiseShare {
+    double variance = 0.0;  ///< sum (var a + var b) / n
+    double share = 0.0;     ///< Of rmse^2; NaN where rmse is 0.
+    /// rmse^2 - variance: the mean square of what the images would differ by without noise. Its expectation is right, so that
+    /// it may be negative where there is little but noise.
+    double mse_without = 0.0;
+    double mse_without_standard_error = 0.0;
 };
 
-/// a and b have the same length.
-ChannelError compare_channel(const std::string& name, std::span<const float> a, std::span<const float> b);
+/// The error of values a against the reference b, over the n pixels where both are finite, in double precision. Without any
+/// such pixel the errors are 0. Standard errors are those of pixel_mean: all are NaN where n is below 2.
+struct ChannelError {
+    std::string name;
+    double bias = 0.0;  ///< sum (a - b) / n
+    double bias_standard_error = 0.0;
+    double rmse = 0.0;                 ///< sqrt(sum (a - b)^2 / n)
+    double rmse_standard_error = 0.0;  ///< That of rmse^2, over 2 rmse; 0 where rmse is 0.
+    double max = 0.0;                  ///< max |a - b|
+    double psnr = 0.0;     ///< 20 log10(peak / rmse) in dB, peak = max |b|, or 1 where that is 0; infinite where rmse is 0.
+    double rel_mse = 0.0;  ///< sum ((a - b)^2 / (b^2 + 0.01)) / n
+    double rel_mse_standard_error = 0.0;
+    std::optional<NoiseShare> noise = {};  ///< Where it is known.
+    uint64_t compared = 0;                 ///< n
+    uint64_t not_finite = 0;  ///< Pixels where a, b or their noise is NaN or infinite: in none of the errors above.
+};
+
+/// The standard error of each pixel of two images whose noise is independent. Both empty where it is not known.
+struct PixelNoise {
+    std::span<const float> a;
+    std::span<const float> b;
+};
+
+/// a and b, and their noise where there is one, have the same length: rows of `width`.
+ChannelError compare_channel(const std::string& name, std::span<const float> a, std::span<const float> b, uint32_t width,
+                             const PixelNoise& noise = {});
 
 enum class Metric { rmse, max, psnr, rel_mse };
 

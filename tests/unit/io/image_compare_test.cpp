@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 #include <vector>
 
 namespace gnomon::test {
@@ -16,18 +17,98 @@ using io::Metric;
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-ChannelError compare(const std::vector<float>& a, const std::vector<float>& b) { return io::compare_channel("R", a, b); }
+ChannelError compare(const std::vector<float>& a, const std::vector<float>& b) {
+    return io::compare_channel("R", a, b, static_cast<uint32_t>(a.size()));
+}
 
 TEST(ImageCompare, WorkedByHand) {
     // Differences 3, 0, -4, 0: mean square 25 / 4. Largest reference 5.
     const ChannelError error = compare({3.0f, 1.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 5.0f, 0.0f});
     EXPECT_EQ(error.name, "R");
+    EXPECT_DOUBLE_EQ(error.bias, -0.25);
     EXPECT_DOUBLE_EQ(error.rmse, 2.5);
     EXPECT_DOUBLE_EQ(error.max, 4.0);
     EXPECT_DOUBLE_EQ(error.psnr, 20.0 * std::log10(2.0));
     EXPECT_DOUBLE_EQ(error.rel_mse, (9.0 / 0.01 + 16.0 / 25.01) / 4.0);
     EXPECT_EQ(error.compared, 4u);
     EXPECT_EQ(error.not_finite, 0u);
+}
+
+// Two blocks of two pixels. Differences 3, 0 and -4, 0: sums less the mean 3.5 and -3.5. Squares: 9, 0, 16, 0, sums less the
+// mean -3.5 and 3.5, so the mean square 6.25 has the standard error 7 / 4, and its root 2.5 that over 5.
+TEST(ImageCompare, StandardErrorsWorkedByHand) {
+    const ChannelError error = compare({3.0f, 1.0f, 1.0f, 0.0f}, {0.0f, 1.0f, 5.0f, 0.0f});
+    EXPECT_DOUBLE_EQ(error.bias_standard_error, 7.0 / 4.0);
+    EXPECT_DOUBLE_EQ(error.rmse_standard_error, 7.0 / 4.0 / 5.0);
+    EXPECT_DOUBLE_EQ(error.rel_mse_standard_error, (9.0 / 0.01 - 16.0 / 25.01) / 4.0);
+    EXPECT_FALSE(error.noise);
+    EXPECT_EQ(compare({1.0f, 2.0f}, {1.0f, 2.0f}).rmse_standard_error, 0.0);
+    EXPECT_TRUE(std::isnan(compare({1.0f}, {2.0f}).rmse_standard_error));
+}
+
+// Variances 1 + 4, 0, 4 + 4, 0 of squares 9, 0, 16, 0.
+TEST(ImageCompare, NoiseWorkedByHand) {
+    const std::vector<float> a = {3.0f, 1.0f, 1.0f, 0.0f}, b = {0.0f, 1.0f, 5.0f, 0.0f};
+    const std::vector<float> noise_a = {1.0f, 0.0f, 2.0f, 0.0f}, noise_b = {2.0f, 0.0f, 2.0f, 0.0f};
+    const ChannelError error = io::compare_channel("visibility.0", a, b, 4, {noise_a, noise_b});
+    ASSERT_TRUE(error.noise);
+    EXPECT_DOUBLE_EQ(error.noise->variance, 13.0 / 4.0);
+    EXPECT_DOUBLE_EQ(error.noise->share, 13.0 / 25.0);
+    EXPECT_DOUBLE_EQ(error.noise->mse_without, 3.0);
+    EXPECT_DOUBLE_EQ(error.noise->mse_without_standard_error, 1.0);  // Sums less the mean: -2 and 2.
+    EXPECT_DOUBLE_EQ(error.rmse, 2.5);
+
+    const std::vector<float> unknown = {kNan, 0.0f, 0.0f, 0.0f};
+    EXPECT_EQ(io::compare_channel("visibility.0", a, b, 4, {noise_a, unknown}).not_finite, 1u);
+    EXPECT_TRUE(std::isnan(io::compare_channel("visibility.0", b, b, 4, {noise_a, noise_b}).noise->share));
+}
+
+// Visibilities with known expectations, as many independent samples see them: over many seeds the mean of the bias and of
+// rmse^2 without noise are right, and the standard errors are the spread.
+TEST(ImageCompare, StandardErrorsAreTheSpread) {
+    constexpr uint32_t kWidth = 64, kHeight = 48, kSeeds = 1000;
+    constexpr int kSamplesA = 4, kSamplesB = 16;
+    struct Tally {
+        double sum = 0.0, squares = 0.0, variances = 0.0;
+        void add(double value, double standard_error) {
+            sum += value;
+            squares += value * value;
+            variances += standard_error * standard_error;
+        }
+        double mean() const { return sum / kSeeds; }
+        double deviation() const { return std::sqrt(squares / kSeeds - mean() * mean()); }
+        double standard_error() const { return std::sqrt(variances / kSeeds); }
+    } bias, rmse, mse_without;
+    double true_bias = 0.0, true_mse = 0.0;
+    for (uint32_t seed = 0; seed < kSeeds; ++seed) {
+        std::mt19937 random(seed);
+        std::vector<float> a, b, noise_a, noise_b;
+        true_bias = true_mse = 0.0;
+        const auto sample = [&](int n, double p, std::vector<float>& mean, std::vector<float>& noise) {
+            const double m = static_cast<double>(std::binomial_distribution<int>(n, p)(random)) / n;
+            mean.push_back(static_cast<float>(m));
+            noise.push_back(static_cast<float>(std::sqrt(m * (1.0 - m) / (n - 1))));
+        };
+        for (uint32_t i = 0; i < kWidth * kHeight; ++i) {  // A penumbra, and a false shadow in it.
+            const double x = (i % kWidth + 0.5) / kWidth, y = (i / kWidth + 0.5) / kHeight;
+            const double p_b = x, p_a = x * (1.0 - 0.3 * y);
+            sample(kSamplesA, p_a, a, noise_a);
+            sample(kSamplesB, p_b, b, noise_b);
+            true_bias += (p_a - p_b) / (kWidth * kHeight);
+            true_mse += (p_a - p_b) * (p_a - p_b) / (kWidth * kHeight);
+        }
+        const ChannelError error = io::compare_channel("visibility.0", a, b, kWidth, {noise_a, noise_b});
+        bias.add(error.bias, error.bias_standard_error);
+        rmse.add(error.rmse, error.rmse_standard_error);
+        mse_without.add(error.noise->mse_without, error.noise->mse_without_standard_error);
+    }
+    const double seeds_root = std::sqrt(kSeeds);
+    EXPECT_NEAR(bias.mean(), true_bias, 4.0 * bias.deviation() / seeds_root);
+    EXPECT_NEAR(mse_without.mean(), true_mse, 4.0 * mse_without.deviation() / seeds_root);
+    EXPECT_LT(4.0 * mse_without.deviation() / seeds_root,
+              0.03 * true_mse);  // Of the error without noise; the noise is five times it.
+    for (const Tally* tally : {&bias, &rmse, &mse_without})
+        EXPECT_NEAR(tally->standard_error() / tally->deviation(), 1.0, 0.07);
 }
 
 TEST(ImageCompare, EqualImagesHaveNoError) {
