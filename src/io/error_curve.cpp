@@ -14,11 +14,11 @@ using Where = CurveValue::Where;
 
 bool is_above_zero(double value) { return std::isfinite(value) && value > 0.0; }
 
-void check(const CurvePoint& point) {
-    const auto refuse = [](const std::string& what, const std::string& hint) {
-        throw Error(ErrorKind::input, what + " cannot be a point of a curve of errors", "", hint);
+void check(const CurvePoint& point, const std::string& name) {
+    const auto refuse = [&](const std::string& what, const std::string& hint) {
+        throw Error(ErrorKind::input, what + " cannot be a point of a curve of errors", name, hint);
     };
-    if (!is_above_zero(point.seconds)) refuse(std::to_string(point.seconds) + " seconds", "give renders with their times");
+    if (!is_above_zero(point.seconds)) refuse(std::to_string(point.seconds) + " seconds", "give a render with its time");
     if (!is_above_zero(point.error))
         refuse("an error of " + std::to_string(point.error), "compare with a reference that differs from the render");
     if (!std::isfinite(point.standard_error) || point.standard_error < 0.0)
@@ -40,14 +40,14 @@ double log_slope(const CurvePoint& a, const CurvePoint& b) {
 
 }  // namespace
 
-ErrorCurve::ErrorCurve(std::vector<CurvePoint> points) : points_(std::move(points)) {
-    if (points_.empty()) throw Error(ErrorKind::input, "a curve of errors has no points", "", "give at least one render");
-    for (const CurvePoint& point : points_) check(point);
+ErrorCurve::ErrorCurve(std::vector<CurvePoint> points, const std::string& name) : points_(std::move(points)) {
+    if (points_.empty()) throw Error(ErrorKind::input, "a curve of errors has no points", name, "give at least one render");
+    for (const CurvePoint& point : points_) check(point, name);
     std::sort(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
     const auto same =
         std::adjacent_find(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return a.seconds == b.seconds; });
     if (same != points_.end())
-        throw Error(ErrorKind::input, "two renders of a method took " + std::to_string(same->seconds) + " seconds", "",
+        throw Error(ErrorKind::input, "two renders took " + std::to_string(same->seconds) + " seconds", name,
                     "give one of them");
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace gnomon::io {
@@ -27,9 +28,9 @@ struct CurveValue {
 /// independent, to first order.
 class ErrorCurve {
 public:
-    /// In any order. Errors: ErrorKind::input where there is no point, two took the same seconds, seconds or an error are not
-    /// finite and above 0, or a standard error is not finite and at least 0.
-    explicit ErrorCurve(std::vector<CurvePoint> points);
+    /// In any order. Errors, which say whose curve it is: ErrorKind::input where there is no point, two took the same seconds,
+    /// seconds or an error are not finite and above 0, or a standard error is not finite and at least 0.
+    explicit ErrorCurve(std::vector<CurvePoint> points, const std::string& name = "");
 
     /// By seconds.
     const std::vector<CurvePoint>& points() const { return points_; }

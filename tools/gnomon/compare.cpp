@@ -12,8 +12,8 @@
 #include <optional>
 
 #include "command.hpp"
-#include "io/exr.hpp"
-#include "io/image_compare.hpp"
+#include "compare_curves.hpp"
+#include "image_errors.hpp"
 #include "io/perceived_error.hpp"
 #include "io/png.hpp"
 #include "options.hpp"
@@ -28,17 +28,8 @@ using io::ExrImage;
 const std::map<std::string, io::Metric> kMetrics = {
     {"rmse", io::Metric::rmse}, {"max", io::Metric::max}, {"psnr", io::Metric::psnr}, {"relmse", io::Metric::rel_mse}};
 
-/// What the pictures look like, where both have R, G and B.
-struct PerceivedError {
-    std::vector<double> flip;  ///< Per pixel.
-    double flip_mean = 0.0;
-    double flip_max = 0.0;
-    double ssim = 0.0;
-};
-
 struct CompareOptions {
-    std::string a;
-    std::string b;
+    std::vector<std::string> files;  ///< The reference is the last.
     std::string json;
     std::string diff;
     std::string diff_png;
@@ -47,38 +38,10 @@ struct CompareOptions {
     std::vector<std::string> channels;
     std::string metric = "rmse";
     std::optional<double> threshold;
+    std::vector<std::string> by = {"method"};
+    std::vector<double> after;
+    std::vector<double> to;
 };
-
-std::string names_of(const ExrImage& image) {
-    std::vector<std::string> names;
-    for (const Channel& channel : image.channels) names.push_back(channel.name);
-    return names.empty() ? "no channels" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-/// The channels to compare: those asked for, else those that both images have, with a warning for each other one.
-std::vector<std::string> common_channels(const ExrImage& a, const ExrImage& b, const CompareOptions& options) {
-    std::vector<std::string> names;
-    for (const std::string& name : options.channels) {
-        for (const auto& [image, path] : {std::pair(&a, &options.a), std::pair(&b, &options.b)})
-            if (image->find(name) == nullptr)
-                throw Error(ErrorKind::input, "there is no channel " + name, *path, "it has " + names_of(*image));
-        names.push_back(name);
-    }
-    if (!names.empty()) return names;
-    for (const Channel& channel : a.channels) {
-        if (b.find(channel.name) != nullptr) {
-            names.push_back(channel.name);
-        } else {
-            spdlog::warn("channel {} is not compared: {} has none", channel.name, options.b);
-        }
-    }
-    for (const Channel& channel : b.channels)
-        if (a.find(channel.name) == nullptr) spdlog::warn("channel {} is not compared: {} has none", channel.name, options.a);
-    if (names.empty())
-        throw Error(ErrorKind::input, fmt::format("the images have no channel in common: {} and {}", names_of(a), names_of(b)),
-                    options.a + " and " + options.b, "compare images with the same channels");
-    return names;
-}
 
 /// a - b, channel by channel.
 std::vector<Channel> difference(const ExrImage& a, const ExrImage& b, const std::vector<std::string>& names) {
@@ -109,28 +72,14 @@ std::vector<Channel> difference_to_show(std::vector<Channel> channels) {
     return shown;
 }
 
-std::optional<PerceivedError> perceived_error(const ExrImage& a, const ExrImage& b, const std::vector<std::string>& names,
-                                              double exposure) {
-    for (const char* name : {"R", "G", "B"})
-        if (std::find(names.begin(), names.end(), name) == names.end()) return std::nullopt;
-    const auto shown = io::shown_picture(a.channels, a.width, a.height, exposure);
-    const auto reference = io::shown_picture(b.channels, b.width, b.height, exposure);
-    PerceivedError error;
-    error.flip = io::flip(*shown, *reference);
-    for (const double value : error.flip) {
-        error.flip_mean += value / static_cast<double>(error.flip.size());
-        error.flip_max = std::max(error.flip_max, value);
-    }
-    error.ssim = io::ssim(*shown, *reference);
-    return error;
-}
-
 /// Is what was asked for by name worse than the threshold? Nothing for the metrics of single channels.
 std::optional<bool> is_over(const PerceivedError& error, const std::string& metric, double threshold) {
-    if (metric == "flip") return error.flip_mean > threshold;
+    if (metric == "flip") return error.flip_mean.mean > threshold;
     if (metric == "ssim") return error.ssim < threshold;
     return std::nullopt;
 }
+
+constexpr const char* kPicture[] = {"R", "G", "B"};
 
 void write_flip(const std::string& path, const ExrImage& image, const PerceivedError& error) {
     std::vector<uint8_t> grey;
@@ -138,25 +87,38 @@ void write_flip(const std::string& path, const ExrImage& image, const PerceivedE
     io::write_png(path, image.width, image.height, grey);
 }
 
-/// The document "gnomon.compare". psnr is null where it is infinite, which is where the images are equal.
-io::Json compare_json(const CompareOptions& options, const ExrImage& a, const std::vector<ChannelError>& errors,
+/// The document "gnomon.compare". null: psnr where it is infinite, as between equal images; what is not known.
+io::Json compare_json(const CompareOptions& options, const ImagePair& pair, const std::vector<ChannelError>& errors,
                       const std::optional<PerceivedError>& perceived, bool over) {
     io::Json json = io::document("compare");
-    json["a"] = options.a;
-    json["b"] = options.b;
-    json["width"] = a.width;
-    json["height"] = a.height;
+    json["a"] = pair.a.path;
+    json["b"] = pair.b.path;
+    json["width"] = pair.a.image.width;
+    json["height"] = pair.a.image.height;
     json["channels"] = io::Json::array();
-    for (const ChannelError& error : errors)
+    for (const ChannelError& error : errors) {
+        io::Json noise = nullptr;
+        if (error.noise)
+            noise = {{"variance", error.noise->variance},
+                     {"share", error.noise->share},
+                     {"mse_without", error.noise->mse_without},
+                     {"mse_without_standard_error", error.noise->mse_without_standard_error}};
         json["channels"].push_back({{"name", error.name},
+                                    {"bias", error.bias},
+                                    {"bias_standard_error", error.bias_standard_error},
                                     {"rmse", error.rmse},
+                                    {"rmse_standard_error", error.rmse_standard_error},
                                     {"max", error.max},
                                     {"psnr", error.psnr},
                                     {"relmse", error.rel_mse},
+                                    {"relmse_standard_error", error.rel_mse_standard_error},
+                                    {"noise", noise},
                                     {"compared", error.compared},
                                     {"not_finite", error.not_finite}});
+    }
     if (perceived) {
-        json["flip"] = {{"mean", perceived->flip_mean},
+        json["flip"] = {{"mean", perceived->flip_mean.mean},
+                        {"mean_standard_error", perceived->flip_mean.standard_error},
                         {"max", perceived->flip_max},
                         {"pixels_per_degree", io::kPixelsPerDegree},
                         {"exposure", options.exposure}};
@@ -171,74 +133,131 @@ io::Json compare_json(const CompareOptions& options, const ExrImage& a, const st
 void print_table(const std::vector<ChannelError>& errors) {
     size_t width = 7;
     for (const ChannelError& error : errors) width = std::max(width, error.name.size());
-    std::cout << fmt::format("{:<{}} {:>12} {:>12} {:>9} {:>12} {:>11}\n", "channel", width, "RMSE", "max", "PSNR dB",
-                             "relative MSE", "not finite");
-    for (const ChannelError& error : errors)
-        std::cout << fmt::format("{:<{}} {:>12.6g} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}\n", error.name, width, error.rmse,
-                                 error.max, error.psnr, error.rel_mse, error.not_finite);
+    std::cout << fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>7} {:>12} {:>9} {:>12} {:>11}\n", "channel", width, "bias",
+                             "s.e.", "RMSE", "s.e.", "noise", "max", "PSNR dB", "relative MSE", "not finite");
+    for (const ChannelError& error : errors) {
+        const bool noise_is_known = error.noise && std::isfinite(error.noise->share);
+        std::cout << fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>7} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}\n",
+                                 error.name, width, error.bias, error.bias_standard_error, error.rmse,
+                                 error.rmse_standard_error,
+                                 noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
+                                 error.psnr, error.rel_mse, error.not_finite);
+    }
 }
 
-int compare(const CompareOptions& options) {
+int compare_images(const CompareOptions& options) {
+    if (options.files.size() != 2)
+        throw Error(ErrorKind::usage, fmt::format("{} images were given", options.files.size()), "command line",
+                    "give an image and its reference, or the JSONs of renders and their reference");
     if (!options.diff.empty()) check_ending(options.diff, ".exr", "--diff");
     if (!options.diff_png.empty()) check_ending(options.diff_png, ".png", "--diff-png");
     if (!options.flip_png.empty()) check_ending(options.flip_png, ".png", "--flip-png");
 
-    const ExrImage a = io::read_exr(options.a);
-    const ExrImage b = io::read_exr(options.b);
-    if (a.width != b.width || a.height != b.height)
-        throw Error(ErrorKind::input,
-                    fmt::format("the images differ in size: {}x{} and {}x{}", a.width, a.height, b.width, b.height),
-                    options.a + " and " + options.b, "compare images of one size");
-
-    const std::vector<std::string> names = common_channels(a, b, options);
-    std::vector<ChannelError> errors;
+    const NamedImage a = read_image(options.files[0]), b = read_image(options.files[1]);
+    const ImagePair pair{a, b};
+    check_same_size(pair);
+    if (const auto seed = common_seed(pair))
+        spdlog::info("both images have seed {}: their noise is partly the same, and how much it is not known", *seed);
+    const std::vector<std::string> names = common_channels(pair, options.channels);
+    const std::vector<ChannelError> errors = channel_errors(pair, names);
     bool over = false;
-    for (const std::string& name : names) {
-        errors.push_back(io::compare_channel(name, a.find(name)->values, b.find(name)->values));
-        if (errors.back().not_finite > 0)
-            spdlog::warn("channel {} has {} values that are not finite; the errors leave them out", name,
-                         errors.back().not_finite);
-        const auto metric = kMetrics.find(options.metric);
-        over = over || (options.threshold && metric != kMetrics.end() &&
-                        io::is_over(errors.back(), metric->second, *options.threshold));
-    }
-    const std::optional<PerceivedError> perceived = perceived_error(a, b, names, options.exposure);
+    if (const auto metric = kMetrics.find(options.metric); options.threshold && metric != kMetrics.end())
+        over = std::any_of(errors.begin(), errors.end(),
+                           [&](const ChannelError& error) { return io::is_over(error, metric->second, *options.threshold); });
+
+    const bool has_picture = std::all_of(std::begin(kPicture), std::end(kPicture), [&](const char* name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    });
+    const std::optional<PerceivedError> perceived = has_picture ? perceived_error(pair, options.exposure) : std::nullopt;
     if (!perceived && (!options.flip_png.empty() || !kMetrics.contains(options.metric)))
-        throw Error(ErrorKind::input, "FLIP and SSIM need the channels R, G and B", options.a + " and " + options.b,
+        throw Error(ErrorKind::input, "FLIP and SSIM need the channels R, G and B", pair.paths(),
                     "compare images that have them, and do not leave them out");
     if (perceived && options.threshold) over = over || is_over(*perceived, options.metric, *options.threshold).value_or(false);
 
-    if (!options.flip_png.empty()) write_flip(options.flip_png, a, *perceived);
+    if (!options.flip_png.empty()) write_flip(options.flip_png, a.image, *perceived);
     if (!options.diff.empty() || !options.diff_png.empty()) {
-        const std::vector<Channel> channels = difference(a, b, names);
-        if (!options.diff.empty()) io::write_exr(options.diff, a.width, a.height, channels, {});
+        const std::vector<Channel> channels = difference(a.image, b.image, names);
+        if (!options.diff.empty()) io::write_exr(options.diff, a.image.width, a.image.height, channels, {});
         if (!options.diff_png.empty())
-            io::write_png(options.diff_png, a.width, a.height, io::tone_map(difference_to_show(channels), options.exposure));
+            io::write_png(options.diff_png, a.image.width, a.image.height,
+                          io::tone_map(difference_to_show(channels), options.exposure));
     }
-    if (!options.json.empty()) write_json(options.json, compare_json(options, a, errors, perceived, over));
+    if (!options.json.empty()) write_json(options.json, compare_json(options, pair, errors, perceived, over));
     if (options.json != "-") {
         print_table(errors);
         if (perceived)
-            std::cout << fmt::format("FLIP {:.6g} mean, {:.6g} max; SSIM {:.6g}\n", perceived->flip_mean, perceived->flip_max,
-                                     perceived->ssim);
+            std::cout << fmt::format("FLIP {:.6g} mean, s.e. {:.2g}, {:.6g} max; SSIM {:.6g}\n", perceived->flip_mean.mean,
+                                     perceived->flip_mean.standard_error, perceived->flip_max, perceived->ssim);
     }
     return over ? kOverThreshold : kDone;
+}
+
+bool is_json(const std::string& path) { return path.ends_with(".json") || path.ends_with(".JSON"); }
+
+/// Options of what is not done are errors.
+void refuse(const CLI::App& command, std::initializer_list<const char*> options, const std::string& where_they_belong) {
+    for (const char* option : options)
+        if (command.count(option) > 0)
+            throw Error(ErrorKind::usage, std::string(option) + " is for " + where_they_belong, option, "leave it out");
+}
+
+int compare(const CLI::App& command, const CompareOptions& options) {
+    if (std::none_of(options.files.begin(), options.files.end(), is_json)) {
+        refuse(command, {"--by", "--after", "--to"}, "the JSONs of renders");
+        warn_if_unused(command, "--metric", "--threshold");
+        return compare_images(options);
+    }
+    refuse(command, {"--threshold", "--diff", "--diff-png", "--flip-png"}, "two images");
+    return compare_curves({.renders = {options.files.begin(), options.files.end() - 1},
+                           .reference = options.files.back(),
+                           .json = options.json,
+                           .exposure = options.exposure,
+                           .channels = options.channels,
+                           .metric = options.metric,
+                           .by = options.by,
+                           .after = options.after,
+                           .to = options.to});
+}
+
+/// An option whose values are numbers above 0, separated by commas.
+void add_numbers(CLI::App& command, const std::string& name, std::vector<double>& numbers, const std::string& type,
+                 const std::string& description) {
+    command
+        .add_option_function<std::vector<std::string>>(
+            name,
+            [name, &numbers](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                    numbers.push_back(
+                        parse_number(text, name, std::numeric_limits<double>::min(), std::numeric_limits<double>::max()));
+            },
+            description)
+        ->type_name(type)
+        ->delimiter(',')
+        ->allow_extra_args(false);
 }
 
 }  // namespace
 
 void add_compare(CLI::App& app, Invocation& invocation) {
-    CLI::App* command =
-        add_command(app, invocation, "compare", "Say how far image A is from the reference B, channel by channel");
+    CLI::App* command = add_command(app, invocation, "compare",
+                                    "Say how far an image is from a reference, channel by channel;\n"
+                                    "or, of several renders of each method, the error of each after the same seconds\n"
+                                    "and the seconds of each to the same error");
     auto options = std::make_shared<CompareOptions>();
-    command->add_option("A", options->a, "Image, .exr")->required()->type_name("");
-    command->add_option("B", options->b, "Reference, .exr")->required()->type_name("");
-    command->add_option("--channels", options->channels, "Only these, separated by commas [all that both have]")
+    command
+        ->add_option("FILES", options->files,
+                     "Image and reference, .exr; or renders, as written by render --json, and their reference, .exr")
+        ->required()
+        ->type_name("A.exr B.exr | RENDER.json... B.exr");
+    command
+        ->add_option("--channels", options->channels, "Only these, separated by commas [all; of renders R, G, B, visibility]")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
-        ->add_option("--metric", options->metric, "What the threshold is for: rmse, max, psnr, relmse, flip (its mean), ssim")
+        ->add_option("--metric", options->metric,
+                     "What the threshold is for: rmse, max, psnr, relmse, flip (its mean), ssim. Of renders the error: rmse, "
+                     "relmse or flip")
         ->type_name("NAME")
         ->check(CLI::IsMember({"rmse", "max", "psnr", "relmse", "flip", "ssim"}).description(""))
         ->capture_default_str();
@@ -260,14 +279,18 @@ void add_compare(CLI::App& app, Invocation& invocation) {
             "Pictures are shown brighter by 2^EV: --diff-png, FLIP and SSIM")
         ->type_name("EV")
         ->default_str("0");
+    command->add_option("--by", options->by, "Settings by which renders are told apart, as in method,layout [method]")
+        ->type_name("SETTING,...")
+        ->delimiter(',')
+        ->allow_extra_args(false);
+    add_numbers(*command, "--after", options->after, "SECONDS,...",
+                "Give the errors of renders after these seconds [those of the first method's renders]");
+    add_numbers(*command, "--to", options->to, "ERROR,...",
+                "Give the seconds of renders to these errors [those of the first method's renders]");
     command->add_option("--json", options->json, "Write it as JSON; - for stdout, instead of the table")
         ->type_name("FILE.json");
-    command->callback([&invocation, command, options] {
-        invocation.run = [command, options] {
-            warn_if_unused(*command, "--metric", "--threshold");
-            return compare(*options);
-        };
-    });
+    command->callback(
+        [&invocation, command, options] { invocation.run = [command, options] { return compare(*command, *options); }; });
 }
 
 }  // namespace gnomon::cli

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "image_errors.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <array>
+#include <gnomon/error.hpp>
+
+#include "io/perceived_error.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+using io::ExrImage;
+
+std::string names_of(const ExrImage& image) {
+    std::vector<std::string> names;
+    for (const Channel& channel : image.channels) names.push_back(channel.name);
+    return names.empty() ? "no channels" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// A setting in the header; empty where it is not there.
+std::string setting_of(const ExrImage& image, const std::string& name) {
+    const auto found = image.attributes.find("gnomon:" + name);
+    return found == image.attributes.end() ? "" : found->second;
+}
+
+/// The standard errors of a channel's pixels, or null where they are not known: one sample does not tell.
+const Channel* noise_of(const ExrImage& image, const std::string& name) {
+    const std::string prefix = "visibility.";
+    if (!name.starts_with(prefix) || setting_of(image, "spp") == "1") return nullptr;
+    return image.find("visibility_var." + name.substr(prefix.size()));
+}
+
+}  // namespace
+
+NamedImage read_image(const std::string& path) { return {path, io::read_exr(path)}; }
+
+void check_same_size(const ImagePair& pair) {
+    const ExrImage &a = pair.a.image, &b = pair.b.image;
+    if (a.width != b.width || a.height != b.height)
+        throw Error(ErrorKind::input,
+                    fmt::format("the images differ in size: {}x{} and {}x{}", a.width, a.height, b.width, b.height),
+                    pair.paths(), "compare images of one size");
+}
+
+std::vector<std::string> common_channels(const ImagePair& pair, const std::vector<std::string>& asked) {
+    const ExrImage &a = pair.a.image, &b = pair.b.image;
+    std::vector<std::string> names;
+    for (const std::string& name : asked) {
+        for (const NamedImage* named : {&pair.a, &pair.b})
+            if (named->image.find(name) == nullptr)
+                throw Error(ErrorKind::input, "there is no channel " + name, named->path, "it has " + names_of(named->image));
+        names.push_back(name);
+    }
+    if (!names.empty()) return names;
+    for (const Channel& channel : a.channels) {
+        if (b.find(channel.name) != nullptr) {
+            names.push_back(channel.name);
+        } else {
+            spdlog::warn("channel {} is not compared: {} has none", channel.name, pair.b.path);
+        }
+    }
+    for (const Channel& channel : b.channels)
+        if (a.find(channel.name) == nullptr) spdlog::warn("channel {} is not compared: {} has none", channel.name, pair.a.path);
+    if (names.empty())
+        throw Error(ErrorKind::input, fmt::format("the images have no channel in common: {} and {}", names_of(a), names_of(b)),
+                    pair.paths(), "compare images with the same channels");
+    return names;
+}
+
+std::optional<std::string> common_seed(const ImagePair& pair) {
+    const std::string seed = setting_of(pair.a.image, "seed");
+    if (seed.empty() || seed != setting_of(pair.b.image, "seed")) return std::nullopt;
+    return seed;
+}
+
+std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names) {
+    const ExrImage &a = pair.a.image, &b = pair.b.image;
+    const bool is_independent = !common_seed(pair);
+    std::vector<io::ChannelError> errors;
+    for (const std::string& name : names) {
+        io::PixelNoise noise;
+        const Channel *noise_a = noise_of(a, name), *noise_b = noise_of(b, name);
+        if (is_independent && noise_a != nullptr && noise_b != nullptr) noise = {noise_a->values, noise_b->values};
+        errors.push_back(io::compare_channel(name, a.find(name)->values, b.find(name)->values, a.width, noise));
+        if (errors.back().not_finite > 0)
+            spdlog::warn("channel {} has {} values that are not finite; the errors leave them out", name,
+                         errors.back().not_finite);
+    }
+    return errors;
+}
+
+std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure) {
+    const ExrImage &a = pair.a.image, &b = pair.b.image;
+    const auto shown = io::shown_picture(a.channels, a.width, a.height, exposure);
+    const auto reference = io::shown_picture(b.channels, b.width, b.height, exposure);
+    if (!shown || !reference) return std::nullopt;
+    PerceivedError error;
+    error.flip = io::flip(*shown, *reference);
+    error.flip_mean = io::pixel_mean(error.flip, a.width);
+    error.flip_max = *std::max_element(error.flip.begin(), error.flip.end());
+    error.ssim = io::ssim(*shown, *reference);
+    return error;
+}
+
+}  // namespace gnomon::cli

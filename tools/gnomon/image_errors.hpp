@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The errors of one EXR image against another.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/exr.hpp"
+#include "io/image_compare.hpp"
+#include "io/pixel_mean.hpp"
+
+namespace gnomon::cli {
+
+struct NamedImage {
+    std::string path;
+    io::ExrImage image;
+};
+
+/// Two images of one size, b being the reference.
+struct ImagePair {
+    const NamedImage& a;
+    const NamedImage& b;
+
+    std::string paths() const { return a.path + " and " + b.path; }
+};
+
+NamedImage read_image(const std::string& path);
+
+/// Errors: ErrorKind::input where the images differ in size.
+void check_same_size(const ImagePair& pair);
+
+/// The channels to compare: those asked for, else those that both images have, with a warning for each other one.
+/// Errors: ErrorKind::input where there are none, or one that was asked for is missing.
+std::vector<std::string> common_channels(const ImagePair& pair, const std::vector<std::string>& asked);
+
+/// The seed that both images say they were rendered with: their noise is partly the same.
+std::optional<std::string> common_seed(const ImagePair& pair);
+
+/// Of these channels, which both have. The noise of visibility.<i> is that of visibility_var.<i>, where both images have
+/// several samples per pixel and no seed in common. Warns of values that are not finite.
+std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names);
+
+/// What the pictures look like.
+struct PerceivedError {
+    std::vector<double> flip;  ///< Per pixel.
+    io::PixelMean flip_mean;
+    double flip_max = 0.0;
+    double ssim = 0.0;
+};
+
+/// Nothing where an image lacks R, G or B.
+std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure);
+
+}  // namespace gnomon::cli
