@@ -1,196 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// `gnomon compare`: how far one image is from another.
-#include <spdlog/spdlog.h>
-
+// `gnomon compare`: how far one image is from another, or the renders of several methods are from a reference.
 #include <algorithm>
-#include <cmath>
 #include <gnomon/error.hpp>
-#include <iostream>
 #include <limits>
-#include <map>
 #include <memory>
-#include <optional>
 
 #include "command.hpp"
-#include "compare_curves.hpp"
-#include "image_errors.hpp"
-#include "io/perceived_error.hpp"
-#include "io/png.hpp"
+#include "compare.hpp"
 #include "options.hpp"
 
 namespace gnomon::cli {
 
 namespace {
-
-using io::ChannelError;
-using io::ExrImage;
-
-const std::map<std::string, io::Metric> kMetrics = {
-    {"rmse", io::Metric::rmse}, {"max", io::Metric::max}, {"psnr", io::Metric::psnr}, {"relmse", io::Metric::rel_mse}};
-
-struct CompareOptions {
-    std::vector<std::string> files;  ///< The reference is the last.
-    std::string json;
-    std::string diff;
-    std::string diff_png;
-    std::string flip_png;
-    double exposure = 0.0;
-    std::vector<std::string> channels;
-    std::string metric = "rmse";
-    std::optional<double> threshold;
-    std::vector<std::string> by = {"method"};
-    std::vector<double> after;
-    std::vector<double> to;
-};
-
-/// a - b, channel by channel.
-std::vector<Channel> difference(const ExrImage& a, const ExrImage& b, const std::vector<std::string>& names) {
-    std::vector<Channel> channels;
-    for (const std::string& name : names) {
-        Channel channel = *a.find(name);
-        const std::vector<float>& reference = b.find(name)->values;
-        for (size_t i = 0; i < reference.size(); ++i) channel.values[i] -= reference[i];
-        channels.push_back(std::move(channel));
-    }
-    return channels;
-}
-
-/// |a - b| as R, G and B: of these channels if all are there, else of the first channel in grey.
-std::vector<Channel> difference_to_show(std::vector<Channel> channels) {
-    std::vector<Channel> shown;
-    for (const char* name : {"R", "G", "B"}) {
-        const auto found = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
-        if (found != channels.end()) shown.push_back(*found);
-    }
-    if (shown.size() < 3) {
-        spdlog::info("the difference image shows channel {}", channels.front().name);
-        shown.assign(3, channels.front());
-        for (size_t i = 0; i < 3; ++i) shown[i].name = std::string(1, "RGB"[i]);
-    }
-    for (Channel& channel : shown)
-        for (float& value : channel.values) value = std::abs(value);
-    return shown;
-}
-
-/// Is what was asked for by name worse than the threshold? Nothing for the metrics of single channels.
-std::optional<bool> is_over(const PerceivedError& error, const std::string& metric, double threshold) {
-    if (metric == "flip") return error.flip_mean.mean > threshold;
-    if (metric == "ssim") return error.ssim < threshold;
-    return std::nullopt;
-}
-
-constexpr const char* kPicture[] = {"R", "G", "B"};
-
-void write_flip(const std::string& path, const ExrImage& image, const PerceivedError& error) {
-    std::vector<uint8_t> grey;
-    for (const double value : error.flip) grey.insert(grey.end(), 3, static_cast<uint8_t>(std::lround(255.0 * value)));
-    io::write_png(path, image.width, image.height, grey);
-}
-
-/// The document "gnomon.compare". null: psnr where it is infinite, as between equal images; what is not known.
-io::Json compare_json(const CompareOptions& options, const ImagePair& pair, const std::vector<ChannelError>& errors,
-                      const std::optional<PerceivedError>& perceived, bool over) {
-    io::Json json = io::document("compare");
-    json["a"] = pair.a.path;
-    json["b"] = pair.b.path;
-    json["width"] = pair.a.image.width;
-    json["height"] = pair.a.image.height;
-    json["channels"] = io::Json::array();
-    for (const ChannelError& error : errors) {
-        io::Json noise = nullptr;
-        if (error.noise)
-            noise = {{"variance", error.noise->variance},
-                     {"share", error.noise->share},
-                     {"mse_without", error.noise->mse_without},
-                     {"mse_without_standard_error", error.noise->mse_without_standard_error}};
-        json["channels"].push_back({{"name", error.name},
-                                    {"bias", error.bias},
-                                    {"bias_standard_error", error.bias_standard_error},
-                                    {"rmse", error.rmse},
-                                    {"rmse_standard_error", error.rmse_standard_error},
-                                    {"max", error.max},
-                                    {"psnr", error.psnr},
-                                    {"relmse", error.rel_mse},
-                                    {"relmse_standard_error", error.rel_mse_standard_error},
-                                    {"noise", noise},
-                                    {"compared", error.compared},
-                                    {"not_finite", error.not_finite}});
-    }
-    if (perceived) {
-        json["flip"] = {{"mean", perceived->flip_mean.mean},
-                        {"mean_standard_error", perceived->flip_mean.standard_error},
-                        {"max", perceived->flip_max},
-                        {"pixels_per_degree", io::kPixelsPerDegree},
-                        {"exposure", options.exposure}};
-        json["ssim"] = perceived->ssim;
-    }
-    json["metric"] = options.metric;
-    json["threshold"] = options.threshold ? io::Json(*options.threshold) : io::Json(nullptr);
-    json["over_threshold"] = over;
-    return json;
-}
-
-void print_table(const std::vector<ChannelError>& errors) {
-    size_t width = 7;
-    for (const ChannelError& error : errors) width = std::max(width, error.name.size());
-    std::cout << fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>7} {:>12} {:>9} {:>12} {:>11}\n", "channel", width, "bias",
-                             "s.e.", "RMSE", "s.e.", "noise", "max", "PSNR dB", "relative MSE", "not finite");
-    for (const ChannelError& error : errors) {
-        const bool noise_is_known = error.noise && std::isfinite(error.noise->share);
-        std::cout << fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>7} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}\n",
-                                 error.name, width, error.bias, error.bias_standard_error, error.rmse,
-                                 error.rmse_standard_error,
-                                 noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
-                                 error.psnr, error.rel_mse, error.not_finite);
-    }
-}
-
-int compare_images(const CompareOptions& options) {
-    if (options.files.size() != 2)
-        throw Error(ErrorKind::usage, fmt::format("{} images were given", options.files.size()), "command line",
-                    "give an image and its reference, or the JSONs of renders and their reference");
-    if (!options.diff.empty()) check_ending(options.diff, ".exr", "--diff");
-    if (!options.diff_png.empty()) check_ending(options.diff_png, ".png", "--diff-png");
-    if (!options.flip_png.empty()) check_ending(options.flip_png, ".png", "--flip-png");
-
-    const NamedImage a = read_image(options.files[0]), b = read_image(options.files[1]);
-    const ImagePair pair{a, b};
-    check_same_size(pair);
-    if (const auto seed = common_seed(pair))
-        spdlog::info("both images have seed {}: their noise is partly the same, and how much it is not known", *seed);
-    const std::vector<std::string> names = common_channels(pair, options.channels);
-    const std::vector<ChannelError> errors = channel_errors(pair, names);
-    bool over = false;
-    if (const auto metric = kMetrics.find(options.metric); options.threshold && metric != kMetrics.end())
-        over = std::any_of(errors.begin(), errors.end(),
-                           [&](const ChannelError& error) { return io::is_over(error, metric->second, *options.threshold); });
-
-    const bool has_picture = std::all_of(std::begin(kPicture), std::end(kPicture), [&](const char* name) {
-        return std::find(names.begin(), names.end(), name) != names.end();
-    });
-    const std::optional<PerceivedError> perceived = has_picture ? perceived_error(pair, options.exposure) : std::nullopt;
-    if (!perceived && (!options.flip_png.empty() || !kMetrics.contains(options.metric)))
-        throw Error(ErrorKind::input, "FLIP and SSIM need the channels R, G and B", pair.paths(),
-                    "compare images that have them, and do not leave them out");
-    if (perceived && options.threshold) over = over || is_over(*perceived, options.metric, *options.threshold).value_or(false);
-
-    if (!options.flip_png.empty()) write_flip(options.flip_png, a.image, *perceived);
-    if (!options.diff.empty() || !options.diff_png.empty()) {
-        const std::vector<Channel> channels = difference(a.image, b.image, names);
-        if (!options.diff.empty()) io::write_exr(options.diff, a.image.width, a.image.height, channels, {});
-        if (!options.diff_png.empty())
-            io::write_png(options.diff_png, a.image.width, a.image.height,
-                          io::tone_map(difference_to_show(channels), options.exposure));
-    }
-    if (!options.json.empty()) write_json(options.json, compare_json(options, pair, errors, perceived, over));
-    if (options.json != "-") {
-        print_table(errors);
-        if (perceived)
-            std::cout << fmt::format("FLIP {:.6g} mean, s.e. {:.2g}, {:.6g} max; SSIM {:.6g}\n", perceived->flip_mean.mean,
-                                     perceived->flip_mean.standard_error, perceived->flip_max, perceived->ssim);
-    }
-    return over ? kOverThreshold : kDone;
-}
 
 bool is_json(const std::string& path) { return path.ends_with(".json") || path.ends_with(".JSON"); }
 
@@ -202,35 +23,29 @@ void refuse(const CLI::App& command, std::initializer_list<const char*> options,
 }
 
 int compare(const CLI::App& command, const CompareOptions& options) {
-    if (std::none_of(options.files.begin(), options.files.end(), is_json)) {
-        refuse(command, {"--by", "--after", "--to"}, "the JSONs of renders");
-        warn_if_unused(command, "--metric", "--threshold");
-        return compare_images(options);
+    if (std::any_of(options.files.begin(), options.files.end(), is_json)) {
+        refuse(command, {"--threshold", "--diff", "--diff-png", "--flip-png"}, "two images");
+        if (is_json(options.files.back()))
+            throw Error(ErrorKind::usage, "the last file is the reference, an image", options.files.back(),
+                        "give the JSONs of renders and then their reference, .exr");
+        return compare_curves(options);
     }
-    refuse(command, {"--threshold", "--diff", "--diff-png", "--flip-png"}, "two images");
-    return compare_curves({.renders = {options.files.begin(), options.files.end() - 1},
-                           .reference = options.files.back(),
-                           .json = options.json,
-                           .exposure = options.exposure,
-                           .channels = options.channels,
-                           .metric = options.metric,
-                           .by = options.by,
-                           .after = options.after,
-                           .to = options.to});
+    refuse(command, {"--by", "--after", "--to"}, "the JSONs of renders");
+    warn_if_unused(command, "--metric", "--threshold");
+    if (options.files.size() != 2)
+        throw Error(ErrorKind::usage, "to compare takes two images, not " + std::to_string(options.files.size()),
+                    "command line", "give an image and its reference, or the JSONs of renders and their reference");
+    return compare_images(options);
 }
 
 /// An option whose values are numbers above 0, separated by commas.
-void add_numbers(CLI::App& command, const std::string& name, std::vector<double>& numbers, const std::string& type,
-                 const std::string& description) {
-    command
-        .add_option_function<std::vector<std::string>>(
-            name,
-            [name, &numbers](const std::vector<std::string>& texts) {
-                for (const std::string& text : texts)
-                    numbers.push_back(
-                        parse_number(text, name, std::numeric_limits<double>::min(), std::numeric_limits<double>::max()));
-            },
-            description)
+CLI::Option* add_numbers(CLI::App& command, const std::string& name, std::vector<double>& numbers, const std::string& type,
+                         const std::string& description) {
+    const auto parse = [name, &numbers](const std::vector<std::string>& texts) {
+        constexpr double kLeast = std::numeric_limits<double>::min(), kMost = std::numeric_limits<double>::max();
+        for (const std::string& text : texts) numbers.push_back(parse_number(text, name, kLeast, kMost));
+    };
+    return command.add_option_function<std::vector<std::string>>(name, parse, description)
         ->type_name(type)
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -239,39 +54,27 @@ void add_numbers(CLI::App& command, const std::string& name, std::vector<double>
 }  // namespace
 
 void add_compare(CLI::App& app, Invocation& invocation) {
-    CLI::App* command = add_command(app, invocation, "compare",
-                                    "Say how far an image is from a reference, channel by channel;\n"
-                                    "or, of several renders of each method, the error of each after the same seconds\n"
-                                    "and the seconds of each to the same error");
+    CLI::App* command =
+        add_command(app, invocation, "compare",
+                    "Say how far image A is from the reference B, channel by channel; or, of several renders of\n"
+                    "each method, the error after the same seconds and the seconds to the same error");
+    const std::string pair = "Options for two images", renders = "Options for renders";
     auto options = std::make_shared<CompareOptions>();
-    command
-        ->add_option("FILES", options->files,
-                     "Image and reference, .exr; or renders, as written by render --json, and their reference, .exr")
+    command->add_option("FILES", options->files, "A.exr B.exr, or RENDER.json... B.exr with the files of render --json")
         ->required()
-        ->type_name("A.exr B.exr | RENDER.json... B.exr");
+        ->type_name("");
     command
         ->add_option("--channels", options->channels, "Only these, separated by commas [all; of renders R, G, B, visibility]")
         ->type_name("NAME,...")
         ->delimiter(',')
         ->allow_extra_args(false);
     command
-        ->add_option("--metric", options->metric,
-                     "What the threshold is for: rmse, max, psnr, relmse, flip (its mean), ssim. Of renders the error: rmse, "
-                     "relmse or flip")
+        ->add_option(
+            "--metric", options->metric,
+            "What the threshold is for: rmse, max, psnr, relmse, flip (its mean), ssim; of renders: rmse, relmse, flip")
         ->type_name("NAME")
         ->check(CLI::IsMember({"rmse", "max", "psnr", "relmse", "flip", "ssim"}).description(""))
         ->capture_default_str();
-    command
-        ->add_option_function<std::string>(
-            "--threshold",
-            [options](const std::string& text) {
-                options->threshold = parse_number(text, "--threshold", 0.0, std::numeric_limits<double>::max());
-            },
-            "Exit code 8 if a channel or the picture is above it (for psnr and ssim: below it)")
-        ->type_name("VALUE");
-    command->add_option("--diff", options->diff, "Image of A - B")->type_name("OUT.exr");
-    command->add_option("--diff-png", options->diff_png, "Image of |A - B|, sRGB 8 bit")->type_name("OUT.png");
-    command->add_option("--flip-png", options->flip_png, "FLIP of each pixel, 0 black, 1 white")->type_name("OUT.png");
     command
         ->add_option_function<std::string>(
             "--exposure",
@@ -279,16 +82,32 @@ void add_compare(CLI::App& app, Invocation& invocation) {
             "Pictures are shown brighter by 2^EV: --diff-png, FLIP and SSIM")
         ->type_name("EV")
         ->default_str("0");
-    command->add_option("--by", options->by, "Settings by which renders are told apart, as in method,layout [method]")
-        ->type_name("SETTING,...")
-        ->delimiter(',')
-        ->allow_extra_args(false);
-    add_numbers(*command, "--after", options->after, "SECONDS,...",
-                "Give the errors of renders after these seconds [those of the first method's renders]");
-    add_numbers(*command, "--to", options->to, "ERROR,...",
-                "Give the seconds of renders to these errors [those of the first method's renders]");
     command->add_option("--json", options->json, "Write it as JSON; - for stdout, instead of the table")
         ->type_name("FILE.json");
+    command
+        ->add_option_function<std::string>(
+            "--threshold",
+            [options](const std::string& text) {
+                options->threshold = parse_number(text, "--threshold", 0.0, std::numeric_limits<double>::max());
+            },
+            "Exit code 8 if a channel or the picture is above it (for psnr and ssim: below it)")
+        ->type_name("VALUE")
+        ->group(pair);
+    command->add_option("--diff", options->diff, "Image of A - B")->type_name("OUT.exr")->group(pair);
+    command->add_option("--diff-png", options->diff_png, "Image of |A - B|, sRGB 8 bit")->type_name("OUT.png")->group(pair);
+    command->add_option("--flip-png", options->flip_png, "FLIP of each pixel, 0 black, 1 white")
+        ->type_name("OUT.png")
+        ->group(pair);
+    command->add_option("--by", options->by, "Settings that tell methods apart, as in method,layout [method]")
+        ->type_name("SETTING,...")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->group(renders);
+    add_numbers(*command, "--after", options->after, "SECONDS,...",
+                "The errors after these [those of the first method's renders]")
+        ->group(renders);
+    add_numbers(*command, "--to", options->to, "ERROR,...", "The seconds to these [those of the first method's renders]")
+        ->group(renders);
     command->callback(
         [&invocation, command, options] { invocation.run = [command, options] { return compare(*command, *options); }; });
 }
