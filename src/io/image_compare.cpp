@@ -21,9 +21,9 @@ double square(double x) { return x * x; }
 }  // namespace
 
 ChannelError compare_channel(const std::string& name, std::span<const float> a, std::span<const float> b, uint32_t width,
-                             const PixelNoise& noise) {
-    assert(a.size() == b.size() && noise.a.size() == noise.b.size());
-    assert(noise.a.empty() || noise.a.size() == a.size());
+                             std::span<const double> variances) {
+    assert(a.size() == b.size());
+    assert(variances.empty() || variances.size() == a.size());
     ChannelError error{.name = name};
     std::vector<double> differences(a.size(), kNone), squares = differences, relative = differences,
                                                       without_noise = differences;
@@ -31,7 +31,7 @@ ChannelError compare_channel(const std::string& name, std::span<const float> a, 
     double variance_sum = 0.0;
     for (size_t i = 0; i < a.size(); ++i) {
         const double reference = b[i];
-        const double variance = noise.a.empty() ? 0.0 : square(noise.a[i]) + square(noise.b[i]);
+        const double variance = variances.empty() ? 0.0 : variances[i];
         differences[i] = a[i] - reference;
         if (!std::isfinite(differences[i]) || !std::isfinite(variance)) {
             differences[i] = kNone;
@@ -54,7 +54,7 @@ ChannelError compare_channel(const std::string& name, std::span<const float> a, 
     error.rmse_standard_error = error.rmse > 0.0 ? mse.standard_error / (2.0 * error.rmse) : mse.standard_error;
     error.rel_mse = rel_mse.mean;
     error.rel_mse_standard_error = rel_mse.standard_error;
-    if (!noise.a.empty() && error.compared > 0) {
+    if (!variances.empty() && error.compared > 0) {
         const PixelMean without = pixel_mean(without_noise, width);
         const double variance = variance_sum / static_cast<double>(error.compared);
         error.noise = {variance, mse.mean > 0.0 ? variance / mse.mean : kNone, without.mean, without.standard_error};

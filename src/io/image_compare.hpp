@@ -9,9 +9,9 @@
 
 namespace gnomon::io {
 
-/// What sampling noise has in an error: the variances of both images, mean over the pixels.
+/// What sampling noise has in an error.
 struct NoiseShare {
-    double variance = 0.0;  ///< sum (var a + var b) / n
+    double variance = 0.0;  ///< Of a - b, mean over the pixels.
     double share = 0.0;     ///< Of rmse^2; NaN where rmse is 0.
     /// rmse^2 - variance: the mean square of what the images would differ by without noise. Its expectation is right, so that
     /// it may be negative where there is little but noise.
@@ -33,18 +33,13 @@ struct ChannelError {
     double rel_mse_standard_error = 0.0;
     std::optional<NoiseShare> noise = {};  ///< Where it is known.
     uint64_t compared = 0;                 ///< n
-    uint64_t not_finite = 0;  ///< Pixels where a, b or their noise is NaN or infinite: in none of the errors above.
+    uint64_t not_finite = 0;  ///< Pixels where a, b or the variance is NaN or infinite: in none of the errors above.
 };
 
-/// The standard error of each pixel of two images whose noise is independent. Both empty where it is not known.
-struct PixelNoise {
-    std::span<const float> a;
-    std::span<const float> b;
-};
-
-/// a and b, and their noise where there is one, have the same length: rows of `width`.
+/// a and b have the same length: rows of `width`. So have the variances of a - b, which are empty where they are not known;
+/// that their expectation is right is enough.
 ChannelError compare_channel(const std::string& name, std::span<const float> a, std::span<const float> b, uint32_t width,
-                             const PixelNoise& noise = {});
+                             std::span<const double> variances = {});
 
 enum class Metric { rmse, max, psnr, rel_mse };
 

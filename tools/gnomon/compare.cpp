@@ -24,7 +24,7 @@ void refuse(const CLI::App& command, std::initializer_list<const char*> options,
 
 int compare(const CLI::App& command, const CompareOptions& options) {
     if (std::any_of(options.files.begin(), options.files.end(), is_json)) {
-        refuse(command, {"--threshold", "--diff", "--diff-png", "--flip-png"}, "two images");
+        refuse(command, {"--again", "--threshold", "--diff", "--diff-png", "--flip-png"}, "two images");
         if (is_json(options.files.back()))
             throw Error(ErrorKind::usage, "the last file is the reference, an image", options.files.back(),
                         "give the JSONs of renders and then their reference, .exr");
@@ -92,6 +92,9 @@ void add_compare(CLI::App& app, Invocation& invocation) {
             },
             "Exit code 8 if a channel or the picture is above it (for psnr and ssim: below it)")
         ->type_name("VALUE")
+        ->group(pair);
+    command->add_option("--again", options->again, "A with another seed: says how much of each error is its noise")
+        ->type_name("A2.exr")
         ->group(pair);
     command->add_option("--diff", options->diff, "Image of A - B")->type_name("OUT.exr")->group(pair);
     command->add_option("--diff-png", options->diff_png, "Image of |A - B|, sRGB 8 bit")->type_name("OUT.png")->group(pair);

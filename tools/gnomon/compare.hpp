@@ -16,6 +16,7 @@ struct CompareOptions {
     std::string json;
 
     // Of two images.
+    std::string again;  ///< The first, rendered with another seed: tells its noise.
     std::optional<double> threshold;
     std::string diff;
     std::string diff_png;

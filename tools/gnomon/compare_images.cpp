@@ -75,6 +75,7 @@ io::Json compare_json(const CompareOptions& options, const ImagePair& pair, cons
     io::Json json = io::document("compare");
     json["a"] = pair.a.path;
     json["b"] = pair.b.path;
+    json["again"] = options.again.empty() ? io::Json(nullptr) : io::Json(options.again);
     json["width"] = pair.a.image.width;
     json["height"] = pair.a.image.height;
     json["channels"] = io::Json::array();
@@ -112,14 +113,16 @@ io::Json compare_json(const CompareOptions& options, const ImagePair& pair, cons
     return json;
 }
 
-void print_table(const std::vector<ChannelError>& errors) {
+/// What noise has in an error is at most what its heading says where only the number of samples tells it.
+void print_table(const std::vector<ChannelError>& errors, bool noise_is_a_bound) {
     size_t width = 7;
     for (const ChannelError& error : errors) width = std::max(width, error.name.size());
-    std::cout << fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>7} {:>12} {:>9} {:>12} {:>11}\n", "channel", width, "bias",
-                             "s.e.", "RMSE", "s.e.", "noise", "max", "PSNR dB", "relative MSE", "not finite");
+    std::cout << fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>8} {:>12} {:>9} {:>12} {:>11}\n", "channel", width, "bias",
+                             "s.e.", "RMSE", "s.e.", noise_is_a_bound ? "noise <=" : "noise", "max", "PSNR dB", "relative MSE",
+                             "not finite");
     for (const ChannelError& error : errors) {
         const bool noise_is_known = error.noise && std::isfinite(error.noise->share);
-        std::cout << fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>7} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}\n",
+        std::cout << fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>8} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}\n",
                                  error.name, width, error.bias, error.bias_standard_error, error.rmse,
                                  error.rmse_standard_error,
                                  noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
@@ -137,10 +140,15 @@ int compare_images(const CompareOptions& options) {
     const NamedImage a = read_image(options.files.front()), b = read_image(options.files.back());
     const ImagePair pair{a, b};
     check_same_size(pair);
-    if (const auto seed = common_seed(pair))
+    if (const auto seed = common_seed(pair); seed && options.again.empty())
         spdlog::info("both images have seed {}: their noise is partly the same, and how much it is not known", *seed);
     const std::vector<std::string> names = common_channels(pair, options.channels);
-    const std::vector<ChannelError> errors = channel_errors(pair, names);
+    std::optional<NamedImage> again;
+    if (!options.again.empty()) {
+        again = read_image(options.again);
+        check_again(a, *again, names);
+    }
+    const std::vector<ChannelError> errors = channel_errors(pair, names, again ? &*again : nullptr);
     bool over = false;
     if (const auto metric = kMetrics.find(options.metric); options.threshold && metric != kMetrics.end())
         over = std::any_of(errors.begin(), errors.end(),
@@ -165,7 +173,7 @@ int compare_images(const CompareOptions& options) {
     }
     if (!options.json.empty()) write_json(options.json, compare_json(options, pair, errors, perceived, over));
     if (options.json != "-") {
-        print_table(errors);
+        print_table(errors, options.again.empty());
         if (perceived)
             std::cout << fmt::format("FLIP {:.6g} mean, s.e. {:.2g}, {:.6g} max; SSIM {:.6g}\n", perceived->flip_mean.mean,
                                      perceived->flip_mean.standard_error, perceived->flip_max, perceived->ssim);

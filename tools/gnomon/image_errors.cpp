@@ -28,10 +28,33 @@ std::string setting_of(const ExrImage& image, const std::string& name) {
 }
 
 /// The standard errors of a channel's pixels, or null where they are not known: one sample does not tell.
-const Channel* noise_of(const ExrImage& image, const std::string& name) {
+const Channel* standard_errors_of(const ExrImage& image, const std::string& name) {
     const std::string prefix = "visibility.";
     if (!name.starts_with(prefix) || setting_of(image, "spp") == "1") return nullptr;
     return image.find("visibility_var." + name.substr(prefix.size()));
+}
+
+/// Of the difference of two images, from the standard errors that they come with. Empty where those are not known.
+std::vector<double> variances_of_samples(const ImagePair& pair, const std::string& name) {
+    const Channel* a = standard_errors_of(pair.a.image, name);
+    const Channel* b = standard_errors_of(pair.b.image, name);
+    if (a == nullptr || b == nullptr || common_seed(pair)) return {};
+    std::vector<double> variances;
+    for (size_t i = 0; i < a->values.size(); ++i) {
+        const double error_a = a->values[i], error_b = b->values[i];
+        variances.push_back(error_a * error_a + error_b * error_b);
+    }
+    return variances;
+}
+
+/// Of an image, from what it differs by from another one of the same expectation.
+std::vector<double> variances_between(const std::vector<float>& a, const std::vector<float>& again) {
+    std::vector<double> variances;
+    for (size_t i = 0; i < a.size(); ++i) {
+        const double difference = static_cast<double>(a[i]) - again[i];
+        variances.push_back(difference * difference / 2.0);
+    }
+    return variances;
 }
 
 }  // namespace
@@ -77,20 +100,39 @@ std::optional<std::string> common_seed(const ImagePair& pair) {
     return seed;
 }
 
-std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names) {
+std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names,
+                                             const NamedImage* again) {
     const ExrImage &a = pair.a.image, &b = pair.b.image;
-    const bool is_independent = !common_seed(pair);
     std::vector<io::ChannelError> errors;
     for (const std::string& name : names) {
-        io::PixelNoise noise;
-        const Channel *noise_a = noise_of(a, name), *noise_b = noise_of(b, name);
-        if (is_independent && noise_a != nullptr && noise_b != nullptr) noise = {noise_a->values, noise_b->values};
-        errors.push_back(io::compare_channel(name, a.find(name)->values, b.find(name)->values, a.width, noise));
+        const std::vector<double> variances = again != nullptr
+                                                  ? variances_between(a.find(name)->values, again->image.find(name)->values)
+                                                  : variances_of_samples(pair, name);
+        errors.push_back(io::compare_channel(name, a.find(name)->values, b.find(name)->values, a.width, variances));
         if (errors.back().not_finite > 0)
             spdlog::warn("channel {} has {} values that are not finite; the errors leave them out", name,
                          errors.back().not_finite);
     }
     return errors;
+}
+
+void check_again(const NamedImage& image, const NamedImage& again, const std::vector<std::string>& names) {
+    const ImagePair pair{image, again};
+    check_same_size(pair);
+    common_channels(pair, names);
+    auto settings = image.image.attributes, settings_again = again.image.attributes;
+    const std::string seed = "gnomon:seed";
+    if (settings[seed] == settings_again[seed])
+        throw Error(ErrorKind::input, "both renders have seed " + settings[seed], pair.paths(),
+                    "render one with another --seed");
+    settings.erase(seed);
+    settings_again.erase(seed);
+    for (const auto& [name, value] : settings)
+        if (settings_again[name] != value)
+            throw Error(
+                ErrorKind::input,
+                fmt::format("the renders differ in more than the seed: {} is {} and {}", name, value, settings_again[name]),
+                pair.paths(), "give renders with the same settings");
 }
 
 std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure) {

@@ -37,9 +37,18 @@ std::vector<std::string> common_channels(const ImagePair& pair, const std::vecto
 /// The seed that both images say they were rendered with: their noise is partly the same.
 std::optional<std::string> common_seed(const ImagePair& pair);
 
-/// Of these channels, which both have. The noise of visibility.<i> is that of visibility_var.<i>, where both images have
-/// several samples per pixel and no seed in common. Warns of values that are not finite.
-std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names);
+/// Of these channels, which both have. Warns of values that are not finite.
+///
+/// What noise has in an error is known in every channel where there is a second render of a that differs from it in the seed:
+/// half of what their squares differ by is the variance of a; that of b is left out. Else it is known in visibility.<i> where
+/// both images have visibility_var.<i>, several samples per pixel, and no seed in common: the variance of as many independent
+/// samples, which is more than that of stratified ones.
+std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names,
+                                             const NamedImage* again = nullptr);
+
+/// Errors: ErrorKind::input where the second render has the same seed, other settings than the seed are different, or it lacks
+/// one of the channels.
+void check_again(const NamedImage& image, const NamedImage& again, const std::vector<std::string>& names);
 
 /// What the pictures look like.
 struct PerceivedError {

@@ -46,11 +46,10 @@ TEST(ImageCompare, StandardErrorsWorkedByHand) {
     EXPECT_TRUE(std::isnan(compare({1.0f}, {2.0f}).rmse_standard_error));
 }
 
-// Variances 1 + 4, 0, 4 + 4, 0 of squares 9, 0, 16, 0.
+// Variances 5, 0, 8, 0 of squares 9, 0, 16, 0.
 TEST(ImageCompare, NoiseWorkedByHand) {
     const std::vector<float> a = {3.0f, 1.0f, 1.0f, 0.0f}, b = {0.0f, 1.0f, 5.0f, 0.0f};
-    const std::vector<float> noise_a = {1.0f, 0.0f, 2.0f, 0.0f}, noise_b = {2.0f, 0.0f, 2.0f, 0.0f};
-    const ChannelError error = io::compare_channel("visibility.0", a, b, 4, {noise_a, noise_b});
+    const ChannelError error = io::compare_channel("visibility.0", a, b, 4, std::vector<double>{5.0, 0.0, 8.0, 0.0});
     ASSERT_TRUE(error.noise);
     EXPECT_DOUBLE_EQ(error.noise->variance, 13.0 / 4.0);
     EXPECT_DOUBLE_EQ(error.noise->share, 13.0 / 25.0);
@@ -58,9 +57,9 @@ TEST(ImageCompare, NoiseWorkedByHand) {
     EXPECT_DOUBLE_EQ(error.noise->mse_without_standard_error, 1.0);  // Sums less the mean: -2 and 2.
     EXPECT_DOUBLE_EQ(error.rmse, 2.5);
 
-    const std::vector<float> unknown = {kNan, 0.0f, 0.0f, 0.0f};
-    EXPECT_EQ(io::compare_channel("visibility.0", a, b, 4, {noise_a, unknown}).not_finite, 1u);
-    EXPECT_TRUE(std::isnan(io::compare_channel("visibility.0", b, b, 4, {noise_a, noise_b}).noise->share));
+    const std::vector<double> unknown = {kNan, 0.0, 0.0, 0.0};
+    EXPECT_EQ(io::compare_channel("visibility.0", a, b, 4, unknown).not_finite, 1u);
+    EXPECT_TRUE(std::isnan(io::compare_channel("visibility.0", b, b, 4, std::vector<double>(4, 1.0)).noise->share));
 }
 
 // Visibilities with known expectations, as many independent samples see them: over many seeds the mean of the bias and of
@@ -82,22 +81,23 @@ TEST(ImageCompare, StandardErrorsAreTheSpread) {
     double true_bias = 0.0, true_mse = 0.0;
     for (uint32_t seed = 0; seed < kSeeds; ++seed) {
         std::mt19937 random(seed);
-        std::vector<float> a, b, noise_a, noise_b;
+        std::vector<float> a, b;
+        std::vector<double> variances(kWidth * kHeight, 0.0);
         true_bias = true_mse = 0.0;
-        const auto sample = [&](int n, double p, std::vector<float>& mean, std::vector<float>& noise) {
-            const double m = static_cast<double>(std::binomial_distribution<int>(n, p)(random)) / n;
-            mean.push_back(static_cast<float>(m));
-            noise.push_back(static_cast<float>(std::sqrt(m * (1.0 - m) / (n - 1))));
+        const auto sample = [&](int n, double p, std::vector<float>& means) {
+            const double mean = static_cast<double>(std::binomial_distribution<int>(n, p)(random)) / n;
+            variances[means.size()] += mean * (1.0 - mean) / (n - 1);
+            means.push_back(static_cast<float>(mean));
         };
         for (uint32_t i = 0; i < kWidth * kHeight; ++i) {  // A penumbra, and a false shadow in it.
             const double x = (i % kWidth + 0.5) / kWidth, y = (i / kWidth + 0.5) / kHeight;
             const double p_b = x, p_a = x * (1.0 - 0.3 * y);
-            sample(kSamplesA, p_a, a, noise_a);
-            sample(kSamplesB, p_b, b, noise_b);
+            sample(kSamplesA, p_a, a);
+            sample(kSamplesB, p_b, b);
             true_bias += (p_a - p_b) / (kWidth * kHeight);
             true_mse += (p_a - p_b) * (p_a - p_b) / (kWidth * kHeight);
         }
-        const ChannelError error = io::compare_channel("visibility.0", a, b, kWidth, {noise_a, noise_b});
+        const ChannelError error = io::compare_channel("visibility.0", a, b, kWidth, variances);
         bias.add(error.bias, error.bias_standard_error);
         rmse.add(error.rmse, error.rmse_standard_error);
         mse_without.add(error.noise->mse_without, error.noise->mse_without_standard_error);
@@ -105,8 +105,7 @@ TEST(ImageCompare, StandardErrorsAreTheSpread) {
     const double seeds_root = std::sqrt(kSeeds);
     EXPECT_NEAR(bias.mean(), true_bias, 4.0 * bias.deviation() / seeds_root);
     EXPECT_NEAR(mse_without.mean(), true_mse, 4.0 * mse_without.deviation() / seeds_root);
-    EXPECT_LT(4.0 * mse_without.deviation() / seeds_root,
-              0.03 * true_mse);  // Of the error without noise; the noise is five times it.
+    EXPECT_LT(4.0 * mse_without.deviation() / seeds_root, 0.03 * true_mse);  // Of which the noise is five times as much.
     for (const Tally* tally : {&bias, &rmse, &mse_without})
         EXPECT_NEAR(tally->standard_error() / tally->deviation(), 1.0, 0.07);
 }
