@@ -16,51 +16,68 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  // Of a pixel that is left out.
 
+using Values = std::vector<double>;
+
 double square(double x) { return x * x; }
+
+// The errors of each pixel.
+struct PixelErrors {
+    Values differences, squares, relative;
+
+    explicit PixelErrors(size_t count) : differences(count, kNone), squares(count, kNone), relative(count, kNone) {}
+
+    void set(size_t i, double a, double b) {
+        differences[i] = a - b;
+        squares[i] = square(a - b);
+        relative[i] = squares[i] / (square(b) + 0.01);
+    }
+};
 
 }  // namespace
 
 ChannelError compare_channel(const std::string& name, std::span<const float> a, std::span<const float> b, uint32_t width,
-                             std::span<const double> variances) {
+                             const PixelNoise& noise) {
     assert(a.size() == b.size());
-    assert(variances.empty() || variances.size() == a.size());
+    assert(noise.variances.empty() || noise.variances.size() == a.size());
+    assert(noise.again.empty() || noise.again.size() == a.size());
+    const bool has_again = !noise.again.empty(), has_noise = has_again || !noise.variances.empty();
     ChannelError error{.name = name};
-    std::vector<double> differences(a.size(), kNone), squares = differences, relative = differences,
-                                                      without_noise = differences;
+    PixelErrors errors(a.size()), again(a.size());
+    Values variances(a.size(), kNone), without_noise(a.size(), kNone);
     double peak = 0.0;
-    double variance_sum = 0.0;
     for (size_t i = 0; i < a.size(); ++i) {
-        const double reference = b[i];
-        const double variance = variances.empty() ? 0.0 : variances[i];
-        differences[i] = a[i] - reference;
-        if (!std::isfinite(differences[i]) || !std::isfinite(variance)) {
-            differences[i] = kNone;
+        const double value = a[i], reference = b[i];
+        const double value_again = has_again ? noise.again[i] : value;
+        const double variance = has_again ? square(value - value_again) / 2.0 : has_noise ? noise.variances[i] : 0.0;
+        if (!std::isfinite(value - reference) || !std::isfinite(variance)) {
             ++error.not_finite;
             continue;
         }
-        squares[i] = square(differences[i]);
-        relative[i] = squares[i] / (square(reference) + 0.01);
-        without_noise[i] = squares[i] - variance;
-        variance_sum += variance;
-        error.max = std::max(error.max, std::abs(differences[i]));
+        errors.set(i, value, reference);
+        again.set(i, value_again, reference);
+        variances[i] = variance;
+        without_noise[i] = errors.squares[i] - variance;
+        error.max = std::max(error.max, std::abs(value - reference));
         peak = std::max(peak, std::abs(reference));
     }
-    const PixelMean bias = pixel_mean(differences, width), mse = pixel_mean(squares, width);
-    const PixelMean rel_mse = pixel_mean(relative, width);
-    error.compared = bias.count;
-    error.bias = bias.mean;
-    error.bias_standard_error = bias.standard_error;
-    error.rmse = std::sqrt(mse.mean);
-    error.rmse_standard_error = error.rmse > 0.0 ? mse.standard_error / (2.0 * error.rmse) : mse.standard_error;
-    error.rel_mse = rel_mse.mean;
-    error.rel_mse_standard_error = rel_mse.standard_error;
-    if (!variances.empty() && error.compared > 0) {
-        const PixelMean without = pixel_mean(without_noise, width);
-        const double variance = variance_sum / static_cast<double>(error.compared);
-        error.noise = {variance, mse.mean > 0.0 ? variance / mse.mean : kNone, without.mean, without.standard_error};
+    const auto standard_error = [&](const Values& values, const Values& values_again) {
+        return has_again ? standard_error_of_two(values, values_again, width) : pixel_mean(values, width).standard_error;
+    };
+    error.compared = a.size() - error.not_finite;
+    error.bias = pixel_mean(errors.differences, width).mean;
+    error.bias_standard_error = standard_error(errors.differences, again.differences);
+    const double mse = pixel_mean(errors.squares, width).mean;
+    const double mse_standard_error = standard_error(errors.squares, again.squares);
+    error.rmse = std::sqrt(mse);
+    error.rmse_standard_error = mse > 0.0 ? mse_standard_error / (2.0 * error.rmse) : mse_standard_error;
+    error.rel_mse = pixel_mean(errors.relative, width).mean;
+    error.rel_mse_standard_error = standard_error(errors.relative, again.relative);
+    if (has_noise && error.compared > 0) {
+        const PixelMean variance = pixel_mean(variances, width), without = pixel_mean(without_noise, width);
+        error.noise = {variance.mean, mse > 0.0 ? variance.mean / mse : kNone, without.mean, without.standard_error};
     }
     error.psnr =
-        error.rmse > 0.0 ? 20.0 * std::log10((peak > 0.0 ? peak : 1.0) / error.rmse) : std::numeric_limits<double>::infinity();
+        mse > 0.0 ? 20.0 * std::log10((peak > 0.0 ? peak : 1.0) / error.rmse) : std::numeric_limits<double>::infinity();
     return error;
 }
 

@@ -20,7 +20,9 @@ struct NoiseShare {
 };
 
 /// The error of values a against the reference b, over the n pixels where both are finite, in double precision. Without any
-/// such pixel the errors are 0. Standard errors are those of pixel_mean: all are NaN where n is below 2.
+/// such pixel the errors are 0. Standard errors are those of pixel_mean, all NaN where n is below 2. Where there is a second
+/// image of the same expectation as a, they are those of the mean that the two errors' difference has, over sqrt(2): the spread
+/// over the seeds of a, whatever is expected of the pixels.
 struct ChannelError {
     std::string name;
     double bias = 0.0;  ///< sum (a - b) / n
@@ -33,13 +35,18 @@ struct ChannelError {
     double rel_mse_standard_error = 0.0;
     std::optional<NoiseShare> noise = {};  ///< Where it is known.
     uint64_t compared = 0;                 ///< n
-    uint64_t not_finite = 0;  ///< Pixels where a, b or the variance is NaN or infinite: in none of the errors above.
+    uint64_t not_finite = 0;  ///< Pixels where a, b or what tells the noise is NaN or infinite: in none of the errors above.
 };
 
-/// a and b have the same length: rows of `width`. So have the variances of a - b, which are empty where they are not known;
-/// that their expectation is right is enough.
+/// What tells the noise of a - b: at most one of these.
+struct PixelNoise {
+    std::span<const double> variances;  ///< Of each pixel; that their expectation is right is enough.
+    std::span<const float> again;       ///< An image of the same expectation as a, with noise of its own. Says nothing of b's.
+};
+
+/// a and b, and what is not empty of the noise, have the same length: rows of `width`.
 ChannelError compare_channel(const std::string& name, std::span<const float> a, std::span<const float> b, uint32_t width,
-                             std::span<const double> variances = {});
+                             const PixelNoise& noise = {});
 
 enum class Metric { rmse, max, psnr, rel_mse };
 

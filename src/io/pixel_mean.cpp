@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 namespace gnomon::io {
@@ -49,6 +50,13 @@ PixelMean pixel_mean(std::span<const double> values, uint32_t width) {
     for (const double contrast : contrasts) variance += contrast * contrast;
     result.standard_error = std::sqrt(variance) / count;
     return result;
+}
+
+double standard_error_of_two(std::span<const double> values, std::span<const double> again, uint32_t width) {
+    assert(values.size() == again.size());
+    std::vector<double> differences(values.size());
+    for (size_t i = 0; i < values.size(); ++i) differences[i] = values[i] - again[i];
+    return pixel_mean(differences, width).standard_error / std::numbers::sqrt2;
 }
 
 }  // namespace gnomon::io

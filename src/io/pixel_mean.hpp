@@ -25,4 +25,9 @@ struct PixelMean {
 /// of the pixels changes smoothly, and more where it does not. It is too small where the dependence reaches as far as a block.
 PixelMean pixel_mean(std::span<const double> values, uint32_t width);
 
+/// The standard error of the mean of `values` where `again` has the same expectation in each pixel and is independent: that of
+/// the mean of what they differ by, over sqrt(2). It is the spread of the mean over the seeds whatever is expected of the
+/// pixels.
+double standard_error_of_two(std::span<const double> values, std::span<const double> again, uint32_t width);
+
 }  // namespace gnomon::io

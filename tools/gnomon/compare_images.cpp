@@ -157,7 +157,8 @@ int compare_images(const CompareOptions& options) {
     const bool has_picture = std::all_of(std::begin(kPicture), std::end(kPicture), [&](const char* name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     });
-    const std::optional<PerceivedError> perceived = has_picture ? perceived_error(pair, options.exposure) : std::nullopt;
+    const std::optional<PerceivedError> perceived =
+        has_picture ? perceived_error(pair, options.exposure, again ? &*again : nullptr) : std::nullopt;
     if (!perceived && (!options.flip_png.empty() || !kMetrics.contains(options.metric)))
         throw Error(ErrorKind::input, "FLIP and SSIM need the channels R, G and B", pair.paths(),
                     "compare images that have them, and do not leave them out");

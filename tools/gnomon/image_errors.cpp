@@ -47,14 +47,8 @@ std::vector<double> variances_of_samples(const ImagePair& pair, const std::strin
     return variances;
 }
 
-/// Of an image, from what it differs by from another one of the same expectation.
-std::vector<double> variances_between(const std::vector<float>& a, const std::vector<float>& again) {
-    std::vector<double> variances;
-    for (size_t i = 0; i < a.size(); ++i) {
-        const double difference = static_cast<double>(a[i]) - again[i];
-        variances.push_back(difference * difference / 2.0);
-    }
-    return variances;
+std::optional<io::ShownPicture> shown_picture(const ExrImage& image, double exposure) {
+    return io::shown_picture(image.channels, image.width, image.height, exposure);
 }
 
 }  // namespace
@@ -105,10 +99,15 @@ std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::v
     const ExrImage &a = pair.a.image, &b = pair.b.image;
     std::vector<io::ChannelError> errors;
     for (const std::string& name : names) {
-        const std::vector<double> variances = again != nullptr
-                                                  ? variances_between(a.find(name)->values, again->image.find(name)->values)
-                                                  : variances_of_samples(pair, name);
-        errors.push_back(io::compare_channel(name, a.find(name)->values, b.find(name)->values, a.width, variances));
+        std::vector<double> variances;
+        io::PixelNoise noise;
+        if (again != nullptr) {
+            noise.again = again->image.find(name)->values;
+        } else {
+            variances = variances_of_samples(pair, name);
+            noise.variances = variances;
+        }
+        errors.push_back(io::compare_channel(name, a.find(name)->values, b.find(name)->values, a.width, noise));
         if (errors.back().not_finite > 0)
             spdlog::warn("channel {} has {} values that are not finite; the errors leave them out", name,
                          errors.back().not_finite);
@@ -135,16 +134,18 @@ void check_again(const NamedImage& image, const NamedImage& again, const std::ve
                 pair.paths(), "give renders with the same settings");
 }
 
-std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure) {
-    const ExrImage &a = pair.a.image, &b = pair.b.image;
-    const auto shown = io::shown_picture(a.channels, a.width, a.height, exposure);
-    const auto reference = io::shown_picture(b.channels, b.width, b.height, exposure);
+std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure, const NamedImage* again) {
+    const auto shown = shown_picture(pair.a.image, exposure), reference = shown_picture(pair.b.image, exposure);
     if (!shown || !reference) return std::nullopt;
     PerceivedError error;
     error.flip = io::flip(*shown, *reference);
-    error.flip_mean = io::pixel_mean(error.flip, a.width);
+    error.flip_mean = io::pixel_mean(error.flip, shown->width);
     error.flip_max = *std::max_element(error.flip.begin(), error.flip.end());
     error.ssim = io::ssim(*shown, *reference);
+    const auto shown_again = again != nullptr ? shown_picture(again->image, exposure) : std::nullopt;
+    if (shown_again)
+        error.flip_mean.standard_error =
+            io::standard_error_of_two(error.flip, io::flip(*shown_again, *reference), shown->width);
     return error;
 }
 

@@ -39,10 +39,9 @@ std::optional<std::string> common_seed(const ImagePair& pair);
 
 /// Of these channels, which both have. Warns of values that are not finite.
 ///
-/// What noise has in an error is known in every channel where there is a second render of a that differs from it in the seed:
-/// half of what their squares differ by is the variance of a; that of b is left out. Else it is known in visibility.<i> where
-/// both images have visibility_var.<i>, several samples per pixel, and no seed in common: the variance of as many independent
-/// samples, which is more than that of stratified ones.
+/// What noise has in an error is known in every channel where there is a second render of a that differs from it in the seed;
+/// that of b is left out. Else it is known in visibility.<i> where both images have visibility_var.<i>, several samples per
+/// pixel, and no seed in common: the variance of as many independent samples, which is more than that of stratified ones.
 std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names,
                                              const NamedImage* again = nullptr);
 
@@ -58,7 +57,7 @@ struct PerceivedError {
     double ssim = 0.0;
 };
 
-/// Nothing where an image lacks R, G or B.
-std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure);
+/// Nothing where an image lacks R, G or B. The second render of a is for the standard error.
+std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure, const NamedImage* again = nullptr);
 
 }  // namespace gnomon::cli
