@@ -27,6 +27,12 @@ struct Render {
     std::map<std::string, std::string> attributes;  ///< Those of its image.
 };
 
+/// A render and, where there is one, another that differs from it in the seed.
+struct RenderTwice {
+    Render first;
+    std::optional<Render> again;
+};
+
 [[noreturn]] void throw_not_a_render(const std::string& path, const std::string& reason) {
     throw Error(ErrorKind::input, "cannot read the render: " + reason, path, "give what render --json has written");
 }
@@ -80,6 +86,31 @@ NamedImage image_of(const Render& render) {
     return image;
 }
 
+/// Do they differ in the seed and in nothing else?
+bool is_again(const Render& a, const Render& b) {
+    const std::string seed = "gnomon:seed";
+    auto settings_a = a.attributes, settings_b = b.attributes;
+    if (settings_a[seed] == settings_b[seed]) return false;
+    settings_a.erase(seed);
+    settings_b.erase(seed);
+    return settings_a == settings_b;
+}
+
+std::vector<RenderTwice> read_renders(const CompareOptions& options) {
+    std::vector<RenderTwice> renders;
+    for (size_t i = 0; i + 1 < options.files.size(); ++i) {
+        Render render = read_render(options.files[i], options.by);
+        const auto found = std::find_if(renders.begin(), renders.end(), [&](const RenderTwice& other) {
+            return !other.again && is_again(other.first, render);
+        });
+        if (found != renders.end())
+            found->again = std::move(render);
+        else
+            renders.push_back({std::move(render), std::nullopt});
+    }
+    return renders;
+}
+
 /// R, G, B and the visibilities: what a method's error shows in.
 std::vector<std::string> channels_of_shadows(const ImagePair& pair) {
     std::vector<std::string> names;
@@ -93,19 +124,17 @@ std::vector<std::string> channels_of_shadows(const ImagePair& pair) {
 
 using NamedPoints = std::vector<std::pair<std::string, CurvePoint>>;
 
-/// The mean FLIP of the picture.
-NamedPoints flip_of(const Render& render, const ImagePair& pair, double exposure) {
-    const auto error = perceived_error(pair, exposure);
-    if (!error)
-        throw Error(ErrorKind::input, "FLIP needs the channels R, G and B", pair.paths(), "compare images that have them");
-    return {{"picture", {render.seconds, error->flip_mean.mean, error->flip_mean.standard_error}}};
-}
-
-/// The error of each channel.
-NamedPoints errors_of(const Render& render, const ImagePair& pair, const CompareOptions& options) {
+/// The error of each channel, or the mean FLIP of the picture.
+NamedPoints errors_of(const Render& render, const ImagePair& pair, const NamedImage* again, const CompareOptions& options) {
+    if (options.metric == "flip") {
+        const auto error = perceived_error(pair, options.exposure, again);
+        if (!error)
+            throw Error(ErrorKind::input, "FLIP needs the channels R, G and B", pair.paths(), "compare images that have them");
+        return {{"picture", {render.seconds, error->flip_mean.mean, error->flip_mean.standard_error}}};
+    }
     const auto names = options.channels.empty() ? channels_of_shadows(pair) : common_channels(pair, options.channels);
     NamedPoints points;
-    for (const io::ChannelError& error : channel_errors(pair, names)) {
+    for (const io::ChannelError& error : channel_errors(pair, names, again)) {
         if (options.metric == "rmse")
             points.push_back({error.name, {render.seconds, error.rmse, error.rmse_standard_error}});
         else
@@ -147,22 +176,20 @@ std::vector<ChannelCurves> render_curves(const CompareOptions& options) {
     if (options.metric != "rmse" && options.metric != "relmse" && options.metric != "flip")
         throw Error(ErrorKind::usage, "there is no standard error of " + options.metric, "--metric",
                     "give rmse, relmse or flip");
-    std::vector<Render> renders;
-    for (size_t i = 0; i + 1 < options.files.size(); ++i) renders.push_back(read_render(options.files[i], options.by));
-
+    const std::vector<RenderTwice> renders = read_renders(options);
     const NamedImage reference = read_image(options.files.back());
     std::vector<ChannelCurves> channels;
-    for (const Render& render : renders) {
-        if (render.device != renders.front().device)
-            spdlog::warn("{} was rendered on {}, {} on {}: their seconds differ for that", renders.front().json,
-                         renders.front().device, render.json, render.device);
+    for (const auto& [render, second] : renders) {
+        if (const Render& first = renders.front().first; render.device != first.device)
+            spdlog::warn("{} was rendered on {}, {} on {}: their seconds differ for that", first.json, first.device,
+                         render.json, render.device);
         const NamedImage image = image_of(render);
+        const std::optional<NamedImage> again = second ? std::optional(image_of(*second)) : std::nullopt;
         const ImagePair pair{image, reference};
         check_same_size(pair);
         if (const auto seed = common_seed(pair))
             spdlog::warn("{} and the reference have seed {}: noise that they share is not in the error", image.path, *seed);
-        const NamedPoints errors =
-            options.metric == "flip" ? flip_of(render, pair, options.exposure) : errors_of(render, pair, options);
+        const NamedPoints errors = errors_of(render, pair, again ? &*again : nullptr, options);
         for (const auto& [name, point] : errors) {
             ChannelCurves& channel = named(channels, &ChannelCurves::name, name);
             named(channel.methods, &MethodCurve::method, render.method).renders.push_back({render.json, point});

@@ -27,10 +27,12 @@ struct ChannelCurves {
     std::vector<MethodCurve> methods;
 };
 
-/// Of the documents "gnomon.render" in options.files, whose images are read and compared with the reference. A channel in which
-/// a render has no error is left out with a warning. Warns where seeds or devices make the comparison unfair. Errors:
-/// ErrorKind::usage where a metric has no standard error; input where a render or its image cannot be read, the image is not
-/// what its document says, or nothing is left to compare.
+/// Of the documents "gnomon.render" in options.files, whose images are read and compared with the reference. A render that
+/// differs from an earlier one in the seed alone is no point of its own but tells the other's standard errors. A channel in
+/// which a render has no error is left out with a warning. Warns where seeds or devices make the comparison unfair.
+///
+/// Errors: ErrorKind::usage where a metric has no standard error; input where a render or its image cannot be read, the image
+/// is not what its document says, or nothing is left to compare.
 std::vector<ChannelCurves> render_curves(const CompareOptions& options);
 
 }  // namespace gnomon::cli

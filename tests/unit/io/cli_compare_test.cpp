@@ -35,9 +35,10 @@ TEST_F(CliCompareTest, TableOnStdout) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     EXPECT_EQ(result.out,
-              "channel         RMSE          max   PSNR dB relative MSE  not finite\n"
-              "R                0.5          0.5      9.54     0.110619           0\n"  // 20 log10(1.5 / 0.5); 0.25 / 2.26
-              "Z                  0            0       inf            0           0\n");
+              "channel        bias     s.e.         RMSE     s.e. noise <=          max   PSNR dB relative MSE  not finite\n"
+              // Less the mean, 0, the two differences are -0.5 and 0.5. 20 log10(1.5 / 0.5); 0.25 / 2.26.
+              "R                 0      0.5          0.5        0        -          0.5      9.54     0.110619           0\n"
+              "Z                 0        0            0        0        -            0       inf            0           0\n");
 }
 
 TEST_F(CliCompareTest, Thresholds) {
@@ -60,8 +61,61 @@ TEST_F(CliCompareTest, JsonOnStdoutIsNothingElse) {
     EXPECT_EQ(document["schema"], "gnomon.compare");
     EXPECT_EQ(document["over_threshold"], true);
     EXPECT_EQ(document["channels"][0]["name"], "R");
+    EXPECT_EQ(document["channels"][0]["bias"], 0.0);
+    EXPECT_EQ(document["channels"][0]["bias_standard_error"], 0.5);
     EXPECT_EQ(document["channels"][0]["rmse"], 0.5);
+    EXPECT_EQ(document["channels"][0]["rmse_standard_error"], 0.0);
+    EXPECT_EQ(document["channels"][0]["noise"], nullptr);
     EXPECT_EQ(document["channels"][1]["psnr"], nullptr);
+}
+
+// The standard errors of the pixels are 0.25 in one image and 0 in the other: 1/16 of variance in 1/4 of rmse^2.
+TEST_F(CliCompareTest, NoiseOfVisibilities) {
+    const auto write = [&](const char* name, float visibility, float error, const std::string& seed, const std::string& spp) {
+        io::write_exr(folder / name, 2, 1,
+                      std::vector<Channel>{{"visibility.0", {visibility, 0.5f}}, {"visibility_var.0", {error, error}}},
+                      {{"gnomon:seed", seed}, {"gnomon:spp", spp}});
+    };
+    write("seed1.exr", 1.0f, 0.25f, "1", "4");
+    write("seed2.exr", 0.5f, 0.0f, "2", "64");
+    write("one.exr", 1.0f, 0.0f, "1", "1");
+    const auto noise = [&](const char* a, const char* b) {
+        return json::parse(compare({a, b, "--json=-"}).out)["channels"][0]["noise"];
+    };
+    EXPECT_EQ(noise("seed1.exr", "seed2.exr")["variance"], 0.0625);
+    EXPECT_EQ(noise("seed1.exr", "seed2.exr")["share"], 0.5);
+    EXPECT_EQ(noise("seed1.exr", "seed2.exr")["mse_without"], 0.0625);
+    EXPECT_EQ(noise("one.exr", "seed2.exr"), nullptr);  // One sample does not tell.
+    EXPECT_EQ(noise("one.exr", "seed1.exr"), nullptr);  // Nor do samples that may be the same.
+    EXPECT_THAT(compare({"seed1.exr", "seed2.exr"}).out, HasSubstr("50.0 %"));
+    EXPECT_THAT(compare({"one.exr", "seed1.exr"}).err, HasSubstr("info: both images have seed 1"));
+}
+
+// A second render, 0.5 away in one of two pixels: 1/16 of variance, and half of what that pixel is away as the standard error
+// of the mean of two, over sqrt(2).
+TEST_F(CliCompareTest, SecondRender) {
+    const auto write = [&](const char* name, float value, const std::string& seed, const std::string& spp) {
+        io::write_exr(folder / name, 2, 1, std::vector<Channel>{{"R", {value, 1.0f}}},
+                      {{"gnomon:seed", seed}, {"gnomon:spp", spp}});
+    };
+    write("first.exr", 1.0f, "1", "4");
+    write("second.exr", 0.5f, "2", "4");
+    write("more.exr", 0.5f, "2", "8");
+    write("reference.exr", 0.0f, "1", "4");
+    const CommandResult result = compare({"first.exr", "reference.exr", "--again=second.exr", "--json=-"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const json channel = json::parse(result.out)["channels"][0];
+    EXPECT_EQ(channel["noise"]["variance"], 0.0625);
+    EXPECT_NEAR(channel["bias_standard_error"].get<double>(), 0.25 / std::sqrt(2.0), 1e-12);
+    EXPECT_THAT(compare({"first.exr", "reference.exr", "--again=second.exr"}).out, HasSubstr("   noise   "));
+
+    const CommandResult same = compare({"first.exr", "reference.exr", "--again=first.exr"});
+    EXPECT_EQ(same.exit_code, 3);
+    EXPECT_THAT(same.err, HasSubstr("both renders have seed 1"));
+    const CommandResult other = compare({"first.exr", "reference.exr", "--again=more.exr"});
+    EXPECT_EQ(other.exit_code, 3);
+    EXPECT_THAT(other.err, HasSubstr("differ in more than the seed: gnomon:spp is 4 and 8"));
+    EXPECT_EQ(compare({"first.exr", "reference.exr", "--again=only_z.exr"}).exit_code, 3);
 }
 
 TEST_F(CliCompareTest, DifferenceImages) {
