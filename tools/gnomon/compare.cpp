@@ -33,8 +33,8 @@ int compare(const CLI::App& command, const CompareOptions& options) {
     refuse(command, {"--by", "--after", "--to"}, "the JSONs of renders");
     warn_if_unused(command, "--metric", "--threshold");
     if (options.files.size() != 2)
-        throw Error(ErrorKind::usage, "to compare takes two images, not " + std::to_string(options.files.size()),
-                    "command line", "give an image and its reference, or the JSONs of renders and their reference");
+        throw Error(ErrorKind::usage, "two images are compared, not " + std::to_string(options.files.size()), "command line",
+                    "give an image and its reference, or the JSONs of renders and their reference");
     return compare_images(options);
 }
 
@@ -93,7 +93,9 @@ void add_compare(CLI::App& app, Invocation& invocation) {
             "Exit code 8 if a channel or the picture is above it (for psnr and ssim: below it)")
         ->type_name("VALUE")
         ->group(pair);
-    command->add_option("--again", options->again, "A with another seed: says how much of each error is its noise")
+    command
+        ->add_option("--again", options->again,
+                     "A with another seed: tells how much of an error is noise, and its spread over seeds")
         ->type_name("A2.exr")
         ->group(pair);
     command->add_option("--diff", options->diff, "Image of A - B")->type_name("OUT.exr")->group(pair);

@@ -91,8 +91,7 @@ io::Json curves_json(const CompareOptions& options, const std::vector<ChannelCur
 }
 
 /// A row for each place, a column for each method.
-void print_answers(const std::string& heading, const ChannelCurves& channel, const Question& question, const char* before_first,
-                   const char* after_last) {
+void print_answers(const std::string& heading, const ChannelCurves& channel, const Question& question, const char* after_last) {
     std::cout << fmt::format("{:<20}", heading);
     for (const MethodCurve& method : channel.methods) std::cout << fmt::format("  {:>20}", method.method);
     std::cout << "\n";
@@ -101,7 +100,7 @@ void print_answers(const std::string& heading, const ChannelCurves& channel, con
         for (const MethodCurve& method : channel.methods) {
             const CurveValue value = (method.curve().*question.answer)(place);
             std::string text = fmt::format("{:.4g} +- {:.2g}", value.value, value.standard_error);
-            if (value.where == CurveValue::Where::before_first) text = before_first;
+            if (value.where == CurveValue::Where::before_first) text = "before the first";
             if (value.where == CurveValue::Where::after_last) text = after_last;
             std::cout << fmt::format("  {:>20}", text);
         }
@@ -118,8 +117,8 @@ int compare_curves(const CompareOptions& options) {
     if (options.json == "-") return kDone;
     for (const ChannelCurves& channel : channels) {
         std::cout << fmt::format("{} of {} against {}\n", options.metric, channel.name, options.files.back());
-        print_answers("error after seconds", channel, error_after(options, channel), "before the first", "after the last");
-        print_answers("seconds to error", channel, seconds_to(options, channel), "below at the first", "not reached");
+        print_answers("error after seconds", channel, error_after(options, channel), "after the last");
+        print_answers("seconds to error", channel, seconds_to(options, channel), "not reached");
     }
     return kDone;
 }

@@ -25,6 +25,8 @@ using io::ExrImage;
 const std::map<std::string, io::Metric> kMetrics = {
     {"rmse", io::Metric::rmse}, {"max", io::Metric::max}, {"psnr", io::Metric::psnr}, {"relmse", io::Metric::rel_mse}};
 
+constexpr const char* kPicture[] = {"R", "G", "B"};
+
 /// a - b, channel by channel.
 std::vector<Channel> difference(const ExrImage& a, const ExrImage& b, const std::vector<std::string>& names) {
     std::vector<Channel> channels;
@@ -40,7 +42,7 @@ std::vector<Channel> difference(const ExrImage& a, const ExrImage& b, const std:
 /// |a - b| as R, G and B: of these channels if all are there, else of the first channel in grey.
 std::vector<Channel> difference_to_show(std::vector<Channel> channels) {
     std::vector<Channel> shown;
-    for (const char* name : {"R", "G", "B"}) {
+    for (const char* name : kPicture) {
         const auto found = std::find_if(channels.begin(), channels.end(), [&](const Channel& c) { return c.name == name; });
         if (found != channels.end()) shown.push_back(*found);
     }
@@ -60,8 +62,6 @@ std::optional<bool> is_over(const PerceivedError& error, const std::string& metr
     if (metric == "ssim") return error.ssim < threshold;
     return std::nullopt;
 }
-
-constexpr const char* kPicture[] = {"R", "G", "B"};
 
 void write_flip(const std::string& path, const ExrImage& image, const PerceivedError& error) {
     std::vector<uint8_t> grey;
@@ -140,7 +140,7 @@ int compare_images(const CompareOptions& options) {
     const NamedImage a = read_image(options.files.front()), b = read_image(options.files.back());
     const ImagePair pair{a, b};
     check_same_size(pair);
-    if (const auto seed = common_seed(pair); seed && options.again.empty())
+    if (const auto seed = common_seed(a.image.attributes, b.image.attributes); seed && options.again.empty())
         spdlog::info("both images have seed {}: their noise is partly the same, and how much it is not known", *seed);
     const std::vector<std::string> names = common_channels(pair, options.channels);
     std::optional<NamedImage> again;

@@ -4,7 +4,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <array>
 #include <gnomon/error.hpp>
 
 #include "io/perceived_error.hpp"
@@ -15,22 +14,20 @@ namespace {
 
 using io::ExrImage;
 
+const std::string kSeed = "gnomon:seed";
+
 std::string names_of(const ExrImage& image) {
     std::vector<std::string> names;
     for (const Channel& channel : image.channels) names.push_back(channel.name);
     return names.empty() ? "no channels" : fmt::format("{}", fmt::join(names, ", "));
 }
 
-/// A setting in the header; empty where it is not there.
-std::string setting_of(const ExrImage& image, const std::string& name) {
-    const auto found = image.attributes.find("gnomon:" + name);
-    return found == image.attributes.end() ? "" : found->second;
-}
-
 /// The standard errors of a channel's pixels, or null where they are not known: one sample does not tell.
 const Channel* standard_errors_of(const ExrImage& image, const std::string& name) {
     const std::string prefix = "visibility.";
-    if (!name.starts_with(prefix) || setting_of(image, "spp") == "1") return nullptr;
+    const auto spp = image.attributes.find("gnomon:spp");
+    const bool has_one_sample = spp != image.attributes.end() && spp->second == "1";
+    if (!name.starts_with(prefix) || has_one_sample) return nullptr;
     return image.find("visibility_var." + name.substr(prefix.size()));
 }
 
@@ -38,7 +35,7 @@ const Channel* standard_errors_of(const ExrImage& image, const std::string& name
 std::vector<double> variances_of_samples(const ImagePair& pair, const std::string& name) {
     const Channel* a = standard_errors_of(pair.a.image, name);
     const Channel* b = standard_errors_of(pair.b.image, name);
-    if (a == nullptr || b == nullptr || common_seed(pair)) return {};
+    if (a == nullptr || b == nullptr || common_seed(pair.a.image.attributes, pair.b.image.attributes)) return {};
     std::vector<double> variances;
     for (size_t i = 0; i < a->values.size(); ++i) {
         const double error_a = a->values[i], error_b = b->values[i];
@@ -88,10 +85,19 @@ std::vector<std::string> common_channels(const ImagePair& pair, const std::vecto
     return names;
 }
 
-std::optional<std::string> common_seed(const ImagePair& pair) {
-    const std::string seed = setting_of(pair.a.image, "seed");
-    if (seed.empty() || seed != setting_of(pair.b.image, "seed")) return std::nullopt;
-    return seed;
+std::optional<std::string> common_seed(const Attributes& a, const Attributes& b) {
+    const auto in_a = a.find(kSeed), in_b = b.find(kSeed);
+    return in_a != a.end() && in_b != b.end() && in_a->second == in_b->second ? std::optional(in_a->second) : std::nullopt;
+}
+
+std::optional<std::string> setting_that_differs(const Attributes& a, const Attributes& b) {
+    Attributes all = a;
+    all.insert(b.begin(), b.end());
+    for (const auto& [name, value] : all) {
+        const auto in_a = a.find(name), in_b = b.find(name);
+        if (name != kSeed && (in_a == a.end() || in_b == b.end() || in_a->second != in_b->second)) return name;
+    }
+    return std::nullopt;
 }
 
 std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names,
@@ -119,19 +125,11 @@ void check_again(const NamedImage& image, const NamedImage& again, const std::ve
     const ImagePair pair{image, again};
     check_same_size(pair);
     common_channels(pair, names);
-    auto settings = image.image.attributes, settings_again = again.image.attributes;
-    const std::string seed = "gnomon:seed";
-    if (settings[seed] == settings_again[seed])
-        throw Error(ErrorKind::input, "both renders have seed " + settings[seed], pair.paths(),
-                    "render one with another --seed");
-    settings.erase(seed);
-    settings_again.erase(seed);
-    for (const auto& [name, value] : settings)
-        if (settings_again[name] != value)
-            throw Error(
-                ErrorKind::input,
-                fmt::format("the renders differ in more than the seed: {} is {} and {}", name, value, settings_again[name]),
-                pair.paths(), "give renders with the same settings");
+    if (const auto seed = common_seed(pair.a.image.attributes, pair.b.image.attributes))
+        throw Error(ErrorKind::input, "both renders have seed " + *seed, pair.paths(), "render one with another --seed");
+    if (const auto name = setting_that_differs(image.image.attributes, again.image.attributes))
+        throw Error(ErrorKind::input, "the renders differ in more than the seed: in " + *name, pair.paths(),
+                    "give renders with the same settings");
 }
 
 std::optional<PerceivedError> perceived_error(const ImagePair& pair, double exposure, const NamedImage* again) {

@@ -2,6 +2,7 @@
 // The errors of one EXR image against another.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "io/pixel_mean.hpp"
 
 namespace gnomon::cli {
+
+using Attributes = std::map<std::string, std::string>;
 
 struct NamedImage {
     std::string path;
@@ -34,8 +37,11 @@ void check_same_size(const ImagePair& pair);
 /// Errors: ErrorKind::input where there are none, or one that was asked for is missing.
 std::vector<std::string> common_channels(const ImagePair& pair, const std::vector<std::string>& asked);
 
-/// The seed that both images say they were rendered with: their noise is partly the same.
-std::optional<std::string> common_seed(const ImagePair& pair);
+/// The seed with which the headers of two images say that they were rendered: their noise is partly the same.
+std::optional<std::string> common_seed(const Attributes& a, const Attributes& b);
+
+/// A setting in which the headers of two images differ, other than the seed.
+std::optional<std::string> setting_that_differs(const Attributes& a, const Attributes& b);
 
 /// Of these channels, which both have. Warns of values that are not finite.
 ///
@@ -45,8 +51,8 @@ std::optional<std::string> common_seed(const ImagePair& pair);
 std::vector<io::ChannelError> channel_errors(const ImagePair& pair, const std::vector<std::string>& names,
                                              const NamedImage* again = nullptr);
 
-/// Errors: ErrorKind::input where the second render has the same seed, other settings than the seed are different, or it lacks
-/// one of the channels.
+/// Errors: ErrorKind::input where the second render has the same seed, other settings than the seed differ, or it lacks one of
+/// the channels.
 void check_again(const NamedImage& image, const NamedImage& again, const std::vector<std::string>& names);
 
 /// What the pictures look like.

@@ -24,7 +24,7 @@ struct Render {
     std::string device;
     std::string exr;
     double seconds = 0.0;
-    std::map<std::string, std::string> attributes;  ///< Those of its image.
+    Attributes attributes;  ///< Those of its image.
 };
 
 /// A render and, where there is one, another that differs from it in the seed.
@@ -86,22 +86,13 @@ NamedImage image_of(const Render& render) {
     return image;
 }
 
-/// Do they differ in the seed and in nothing else?
-bool is_again(const Render& a, const Render& b) {
-    const std::string seed = "gnomon:seed";
-    auto settings_a = a.attributes, settings_b = b.attributes;
-    if (settings_a[seed] == settings_b[seed]) return false;
-    settings_a.erase(seed);
-    settings_b.erase(seed);
-    return settings_a == settings_b;
-}
-
 std::vector<RenderTwice> read_renders(const CompareOptions& options) {
     std::vector<RenderTwice> renders;
     for (size_t i = 0; i + 1 < options.files.size(); ++i) {
         Render render = read_render(options.files[i], options.by);
         const auto found = std::find_if(renders.begin(), renders.end(), [&](const RenderTwice& other) {
-            return !other.again && is_again(other.first, render);
+            const Attributes &a = other.first.attributes, &b = render.attributes;
+            return !other.again && !common_seed(a, b) && !setting_that_differs(a, b);
         });
         if (found != renders.end())
             found->again = std::move(render);
@@ -127,12 +118,14 @@ using NamedPoints = std::vector<std::pair<std::string, CurvePoint>>;
 /// The error of each channel, or the mean FLIP of the picture.
 NamedPoints errors_of(const Render& render, const ImagePair& pair, const NamedImage* again, const CompareOptions& options) {
     if (options.metric == "flip") {
+        if (again != nullptr) check_again(pair.a, *again, {"R", "G", "B"});
         const auto error = perceived_error(pair, options.exposure, again);
         if (!error)
             throw Error(ErrorKind::input, "FLIP needs the channels R, G and B", pair.paths(), "compare images that have them");
         return {{"picture", {render.seconds, error->flip_mean.mean, error->flip_mean.standard_error}}};
     }
     const auto names = options.channels.empty() ? channels_of_shadows(pair) : common_channels(pair, options.channels);
+    if (again != nullptr) check_again(pair.a, *again, names);
     NamedPoints points;
     for (const io::ChannelError& error : channel_errors(pair, names, again)) {
         if (options.metric == "rmse")
@@ -187,7 +180,7 @@ std::vector<ChannelCurves> render_curves(const CompareOptions& options) {
         const std::optional<NamedImage> again = second ? std::optional(image_of(*second)) : std::nullopt;
         const ImagePair pair{image, reference};
         check_same_size(pair);
-        if (const auto seed = common_seed(pair))
+        if (const auto seed = common_seed(image.image.attributes, reference.image.attributes))
             spdlog::warn("{} and the reference have seed {}: noise that they share is not in the error", image.path, *seed);
         const NamedPoints errors = errors_of(render, pair, again ? &*again : nullptr, options);
         for (const auto& [name, point] : errors) {

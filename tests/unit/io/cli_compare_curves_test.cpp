@@ -62,7 +62,7 @@ TEST_F(CliCompareCurvesTest, TablesOnStdout) {
               "1                                 0.5 +- 0      before the first\n"
               "4                                0.25 +- 0           0.1768 +- 0\n"
               "seconds to error                       tsm                 exact\n"
-              "0.5                                 1 +- 0    below at the first\n"
+              "0.5                                 1 +- 0      before the first\n"
               "0.25                                4 +- 0                2 +- 0\n");
 }
 
@@ -118,8 +118,8 @@ TEST_F(CliCompareCurvesTest, UsageErrorsExitWith2) {
              {{"tsm_4.json", "black.exr", "--after=0"}, "0 is not from"},
              {{"tsm_4.json", "black.exr", "--to=x"}, "'x' is not a number"},
              {{"tsm_4.exr", "black.exr", "--after=1"}, "--after is for the JSONs of renders"},
-             {{"tsm_4.exr", "tsm_16.exr", "black.exr"}, "takes two images, not 3"},
-             {{"tsm_4.exr"}, "takes two images, not 1"}}) {
+             {{"tsm_4.exr", "tsm_16.exr", "black.exr"}, "two images are compared, not 3"},
+             {{"tsm_4.exr"}, "two images are compared, not 1"}}) {
         const CommandResult result = compare(arguments);
         EXPECT_EQ(result.exit_code, 2) << text;
         EXPECT_THAT(result.err, HasSubstr(text));

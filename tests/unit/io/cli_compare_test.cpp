@@ -114,7 +114,7 @@ TEST_F(CliCompareTest, SecondRender) {
     EXPECT_THAT(same.err, HasSubstr("both renders have seed 1"));
     const CommandResult other = compare({"first.exr", "reference.exr", "--again=more.exr"});
     EXPECT_EQ(other.exit_code, 3);
-    EXPECT_THAT(other.err, HasSubstr("differ in more than the seed: gnomon:spp is 4 and 8"));
+    EXPECT_THAT(other.err, HasSubstr("differ in more than the seed: in gnomon:spp"));
     EXPECT_EQ(compare({"first.exr", "reference.exr", "--again=only_z.exr"}).exit_code, 3);
 }
 
