@@ -82,6 +82,12 @@ TEST(PixelMean, BlocksAreTakenByFour) {
     EXPECT_DOUBLE_EQ(error_of_ones({{4, 7}, {4, 8}}), std::sqrt(2.0) / 256.0);
 }
 
+// Blocks of two pixels and of one, or with pixels left out, differ by their counts times the mean: that is no noise.
+TEST(PixelMean, UnequalBlocksOfOneValue) {
+    EXPECT_EQ(pixel_mean(std::vector<double>{5.0, 5.0, 5.0}, 3).standard_error, 0.0);
+    EXPECT_EQ(pixel_mean(std::vector<double>{5.0, 5.0, 5.0, kNan}, 4).standard_error, 0.0);
+}
+
 // What changes along one axis, however steeply, says nothing of noise.
 TEST(PixelMean, SlopesAreNotNoise) {
     std::vector<double> values(256);
