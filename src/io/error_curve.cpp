@@ -20,7 +20,8 @@ void check(const CurvePoint& point, const std::string& name) {
     };
     if (!is_above_zero(point.seconds)) refuse(std::to_string(point.seconds) + " seconds", "give a render with its time");
     if (!is_above_zero(point.error))
-        refuse("an error of " + std::to_string(point.error), "compare with a reference that differs from the render");
+        refuse(std::string("an error of ") + std::to_string(point.error),
+               "compare with a reference that differs from the render");
     if (!std::isfinite(point.standard_error) || point.standard_error < 0.0)
         refuse("an error without its standard error", "render more pixels");
 }
@@ -47,7 +48,7 @@ ErrorCurve::ErrorCurve(std::vector<CurvePoint> points, const std::string& name) 
     const auto same =
         std::adjacent_find(points_.begin(), points_.end(), [](const auto& a, const auto& b) { return a.seconds == b.seconds; });
     if (same != points_.end())
-        throw Error(ErrorKind::input, "two renders took " + std::to_string(same->seconds) + " seconds", name,
+        throw Error(ErrorKind::input, std::string("two renders took ") + std::to_string(same->seconds) + " seconds", name,
                     "give one of them");
 }
 

@@ -33,8 +33,8 @@ int compare(const CLI::App& command, const CompareOptions& options) {
     refuse(command, {"--by", "--after", "--to"}, "the JSONs of renders");
     warn_if_unused(command, "--metric", "--threshold");
     if (options.files.size() != 2)
-        throw Error(ErrorKind::usage, "two images are compared, not " + std::to_string(options.files.size()), "command line",
-                    "give an image and its reference, or the JSONs of renders and their reference");
+        throw Error(ErrorKind::usage, std::string("two images are compared, not ") + std::to_string(options.files.size()),
+                    "command line", "give an image and its reference, or the JSONs of renders and their reference");
     return compare_images(options);
 }
 
