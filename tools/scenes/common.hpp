@@ -23,4 +23,10 @@ std::vector<double> key_times(double end, uint32_t count);
 /// A still horizontal square at height y about (0, 0), two triangles.
 void add_ground(GltfWriter& writer, double half_size, double y, Rgb color);
 
+/// A white material with a checker of 2 x 2 fields to a unit of uv.
+int add_checker_material(GltfWriter& writer, const std::string& name);
+
+/// A chequered floor of 18 x 9 m, y = 0, with a wall behind it at -Z, turned about Y by `turn` radians.
+void add_studio(GltfWriter& writer, double turn = 0.0);
+
 }  // namespace gnomon::makers

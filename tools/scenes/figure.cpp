@@ -2,75 +2,11 @@
 // The scene figure: a walk through a studio.
 #include "figure.hpp"
 
-#include <algorithm>
-
 #include "common.hpp"
-#include "png.hpp"
 #include "scene_makers.hpp"
 
 namespace gnomon::makers {
 namespace {
-
-/// Two tones in a checker with a thin line between the fields.
-std::vector<uint8_t> checker_png() {
-    constexpr uint32_t kSize = 64, kField = kSize / 2;
-    std::vector<uint8_t> rgb;
-    for (uint32_t y = 0; y < kSize; ++y) {
-        for (uint32_t x = 0; x < kSize; ++x) {
-            const bool line = x % kField == 0 || y % kField == 0;
-            const bool light = (x / kField + y / kField) % 2 == 0;
-            const int tone = line ? 186 : light ? 226 : 210;
-            for (const int drop : {0, 5, 16}) rgb.push_back(static_cast<uint8_t>(tone - drop));
-        }
-    }
-    return encode_png(kSize, kSize, rgb);
-}
-
-/// The walls and floor of a studio: a floor that bends upward into a wall. The floor's uv are in fields of the checker.
-struct Studio {
-    Mesh floor, backdrop;
-};
-Studio studio() {
-    constexpr double kHalfWidth = 9.0, kFront = 6.0, kBend = -3.0, kRadius = 2.0, kTop = 5.0;
-    Studio studio;
-    studio.floor = sheet(1, 1, [](double u, double v) {
-        return Vec3{kHalfWidth * (2.0 * u - 1.0), 0.0, kFront + (kBend - kFront) * v};
-    });
-    for (auto& uv : studio.floor.uvs) uv = {2.0 * kHalfWidth * uv[0], (kFront - kBend) * uv[1]};
-
-    constexpr uint32_t kArcRows = 16;
-    studio.backdrop = sheet(1, kArcRows + 1, [](double u, double v) {
-        const double row = v * (kArcRows + 1), angle = kPi / 2.0 * std::min(1.0, row / kArcRows);
-        const double y = row > kArcRows + 0.5 ? kTop : kRadius * (1.0 - std::cos(angle));
-        return Vec3{kHalfWidth * (2.0 * u - 1.0), y, kBend - kRadius * std::sin(angle)};
-    });
-    studio.backdrop.uvs.clear();
-    return studio;
-}
-
-void add_figure(GltfWriter& writer, uint32_t triangles) {
-    const Mesh body = figure_body(triangles);
-    const Walk walk = figure_walk(body);
-    const auto& skeleton = figure_skeleton();
-    const int times = writer.add_times(walk.seconds);
-    std::vector<int> nodes;
-    std::vector<Vec3> bind_positions;
-    for (std::size_t j = 0; j < kFigureJoints; ++j) {
-        const JointInfo& info = skeleton[j];
-        const bool root = info.parent < 0;
-        const Vec3 offset =
-            root ? walk.pelvis_positions[0] : info.position - skeleton[static_cast<std::size_t>(info.parent)].position;
-        std::vector<Quat> rotations;
-        for (const Posture& posture : walk.postures) rotations.push_back(posture.rotations[j]);
-        const int parent = root ? -1 : nodes[static_cast<std::size_t>(info.parent)];
-        nodes.push_back(writer.add_node(info.name, {offset, rotations[0]}, parent));
-        writer.animate_rotation(nodes.back(), times, rotations);
-        bind_positions.push_back(info.position);
-    }
-    writer.animate_translation(nodes[pelvis], writer.add_times(walk.pelvis_seconds), walk.pelvis_positions);
-    const Primitive primitive{&body, writer.add_material("figure", {})};
-    writer.add_skinned_node("figure", writer.add_mesh("figure", {&primitive, 1}), nodes, bind_positions);
-}
 
 /// Closed blades around the Z axis, each a thin box twisted out of the plane and narrow at the hub.
 Mesh pinwheel_blades(uint32_t triangles) {
@@ -148,11 +84,9 @@ void make_figure(const std::filesystem::path& path, const FigureOptions& options
     const auto share = [&](double of_all) { return static_cast<uint32_t>(std::lround(of_all * options.triangles)); };
     GltfWriter writer("figure");
 
-    const Studio room = studio();
-    const Primitive primitives[] = {{&room.floor, writer.add_material("floor", {}, writer.add_image("checker", checker_png()))},
-                                    {&room.backdrop, writer.add_material("backdrop", from_srgb(206, 204, 198))}};
-    writer.add_mesh_node("studio", writer.add_mesh("studio", primitives));
-    add_figure(writer, share(0.83));
+    add_studio(writer);
+    const Mesh body = figure_body(share(0.83));
+    add_figure(writer, "figure", body, figure_walk(body));
     add_pinwheel(writer, share(0.08), {1.2, 0.0, -1.0}, -0.3);
     add_ball(writer, share(0.07), {-0.98, 0.0, 0.55});
 

@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The walking figure: skeleton, body and motion. It faces +X, its right side is at +Z, and it stands on y = 0.
+// The figure: skeleton, body and motions. It faces +X, its right side is at +Z, and it stands on y = 0.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "mesh.hpp"
 
 namespace gnomon::makers {
+
+class GltfWriter;
 
 /// Parents come before their children. Right follows left by kSide.
 enum Joint : uint16_t {
@@ -57,16 +60,21 @@ struct Posture {
     std::array<Quat, kFigureJoints> rotations;
 };
 
-/// World positions of the vertices of `body` from `first` (an index, to pose a part only).
-std::vector<Vec3> posed_vertices(const Mesh& body, const Posture& posture, const std::vector<uint32_t>& vertices);
-
-/// A walk of one cycle in one second along +X.
-struct Walk {
+/// A motion along +X from 0 s. Joints turn evenly between the postures.
+struct Motion {
     std::vector<double> seconds;  ///< Of `postures`.
     std::vector<Posture> postures;
     std::vector<double> pelvis_seconds;  ///< More of them, so that the feet stay on the ground between the postures too.
     std::vector<Vec3> pelvis_positions;
 };
-Walk figure_walk(const Mesh& body);
+
+/// One cycle in one second, always on the ground.
+Motion figure_walk(const Mesh& body);
+
+/// One cycle of a run in half a second, with both feet off the ground between the steps.
+Motion figure_run(const Mesh& body);
+
+/// Writes the skeleton, its motion and a mesh that is bound to it, with a material of the same name.
+void add_figure(GltfWriter& writer, const std::string& name, const Mesh& body, const Motion& motion);
 
 }  // namespace gnomon::makers
