@@ -43,4 +43,8 @@ void add_ground(GltfWriter& writer, double half_size, double y, Rgb color) {
     writer.add_mesh_node("ground", writer.add_mesh("ground", {&primitive, 1}));
 }
 
+void add_fill_light(GltfWriter& writer, Vec3 direction) {
+    writer.add_directional_light("fill", direction, direction * -5.0, {0.72, 0.84, 1.0}, 0.8);
+}
+
 }  // namespace gnomon::makers

@@ -23,6 +23,9 @@ std::vector<double> key_times(double end, uint32_t count);
 /// A still horizontal square at height y about (0, 0), two triangles.
 void add_ground(GltfWriter& writer, double half_size, double y, Rgb color);
 
+/// A weak bluish directional light, the scene's second: it shows what the first leaves black.
+void add_fill_light(GltfWriter& writer, Vec3 direction);
+
 /// A white material with a checker of 2 x 2 fields to a unit of uv.
 int add_checker_material(GltfWriter& writer, const std::string& name);
 

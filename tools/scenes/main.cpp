@@ -24,6 +24,9 @@ constexpr const char* kHelp =
 make_scenes all -o FOLDER              writes the scenes of the scenes folder
 
   figure         --triangles N (12000)  --fill-light yes|no (yes)
+  character      --triangles N of the figure (70000)  --fill-light yes|no (no)
+  runner         --triangles N (262000)  --fill-light yes|no (no)
+  wrecking-ball  --triangles N (8000)  --fill-light yes|no (no)
   two-cubes      --triangles N of each cube (6000)
   random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
   pillars        --columns N (7)
@@ -69,6 +72,12 @@ public:
         const auto node = values_.extract(name);
         return node ? node.mapped() : std::string{};
     }
+    void take_yes(const std::string& name, bool& into) {
+        const std::string text = take_text(name);
+        if (text.empty()) return;
+        if (text != "yes" && text != "no") throw Error(ErrorKind::usage, "not yes or no: '" + text + "'", name, "");
+        into = text == "yes";
+    }
     void require_empty() const {
         if (values_.empty()) return;
         throw Error(ErrorKind::usage, "unknown option for this scene", values_.begin()->first, "see make_scenes --help");
@@ -86,12 +95,23 @@ void run(const std::string& scene, Options options) {
     if (scene == "figure") {
         makers::FigureOptions o;
         options.take("--triangles", o.triangles);
-        if (const std::string fill = options.take_text("--fill-light"); !fill.empty()) {
-            if (fill != "yes" && fill != "no")
-                throw Error(ErrorKind::usage, "not yes or no: '" + fill + "'", "--fill-light", "");
-            o.fill_light = fill == "yes";
-        }
+        options.take_yes("--fill-light", o.fill_light);
         make = [=] { makers::make_figure(output, o); };
+    } else if (scene == "character") {
+        makers::CharacterOptions o;
+        options.take("--triangles", o.triangles);
+        options.take_yes("--fill-light", o.fill_light);
+        make = [=] { makers::make_character(output, o); };
+    } else if (scene == "runner") {
+        makers::RunnerOptions o;
+        options.take("--triangles", o.triangles);
+        options.take_yes("--fill-light", o.fill_light);
+        make = [=] { makers::make_runner(output, o); };
+    } else if (scene == "wrecking-ball") {
+        makers::WreckingBallOptions o;
+        options.take("--triangles", o.triangles);
+        options.take_yes("--fill-light", o.fill_light);
+        make = [=] { makers::make_wrecking_ball(output, o); };
     } else if (scene == "two-cubes") {
         makers::TwoCubesOptions o;
         options.take("--triangles", o.triangles);

@@ -13,6 +13,13 @@ void append_to(std::vector<T>& to, const std::vector<T>& from) {
     to.insert(to.end(), from.begin(), from.end());
 }
 
+void add_ring(Mesh& mesh, const Ring& ring, uint32_t sides) {
+    for (uint32_t i = 0; i < sides; ++i) {
+        const double angle = 2.0 * kPi * i / sides;
+        mesh.positions.push_back(ring.center + ring.a * std::cos(angle) + ring.b * std::sin(angle));
+    }
+}
+
 }  // namespace
 
 void Mesh::map(const std::function<Vec3(Vec3)>& to) {
@@ -105,12 +112,7 @@ Mesh tube(const Vec3& first_pole, std::span<const Ring> rings, const Vec3& last_
     assert(!rings.empty() && sides >= 3);
     Mesh mesh;
     mesh.positions.push_back(first_pole);
-    for (const Ring& ring : rings) {
-        for (uint32_t i = 0; i < sides; ++i) {
-            const double angle = 2.0 * kPi * i / sides;
-            mesh.positions.push_back(ring.center + ring.a * std::cos(angle) + ring.b * std::sin(angle));
-        }
-    }
+    for (const Ring& ring : rings) add_ring(mesh, ring, sides);
     mesh.positions.push_back(last_pole);
 
     const auto last = static_cast<uint32_t>(mesh.positions.size() - 1);
@@ -127,6 +129,49 @@ Mesh tube(const Vec3& first_pole, std::span<const Ring> rings, const Vec3& last_
     }
     mesh.smooth_normals();
     return mesh;
+}
+
+Mesh closed_loop(std::span<const Ring> rings, uint32_t sides) {
+    assert(rings.size() >= 3 && sides >= 3);
+    Mesh mesh;
+    for (const Ring& ring : rings) add_ring(mesh, ring, sides);
+    const auto ring_count = static_cast<uint32_t>(rings.size());
+    for (uint32_t r = 0; r < ring_count; ++r) {
+        const uint32_t from = r * sides, to = (r + 1) % ring_count * sides;
+        for (uint32_t i = 0; i < sides; ++i) {
+            const uint32_t j = (i + 1) % sides;
+            mesh.indices.insert(mesh.indices.end(), {from + i, from + j, to + j, from + i, to + j, to + i});
+        }
+    }
+    mesh.smooth_normals();
+    return mesh;
+}
+
+Mesh lathe(std::span<const ProfilePoint> profile, uint32_t triangles) {
+    assert(profile.size() >= 2);
+    const auto distance = [&](std::size_t i) {  // To the next point.
+        return std::hypot(profile[i + 1].radius - profile[i].radius, profile[i + 1].y - profile[i].y);
+    };
+    double reach = 0.0, area = 0.0;
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+        reach += distance(i);
+        area += kPi * (profile[i].radius + profile[i + 1].radius) * distance(i);
+    }
+    // Quads are about square, but every point of the profile keeps its ring.
+    const double step = reach / cut_for(triangles, reach * reach / area).rings;
+    std::vector<Ring> rings;
+    const auto add = [&](double radius, double y) { rings.push_back({{0.0, y, 0.0}, {0.0, 0.0, radius}, {radius, 0.0, 0.0}}); };
+    for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+        const auto [radius, y] = profile[i];
+        const auto cuts = std::max(1l, std::lround(distance(i) / step));
+        for (long cut = 0; cut < cuts; ++cut) {
+            const double share = static_cast<double>(cut) / static_cast<double>(cuts);
+            add(radius + (profile[i + 1].radius - radius) * share, y + (profile[i + 1].y - y) * share);
+        }
+    }
+    add(profile.back().radius, profile.back().y);
+    const long sides = std::lround(triangles / 2.0 / static_cast<double>(rings.size()));
+    return tube({0.0, profile.front().y, 0.0}, rings, {0.0, profile.back().y, 0.0}, static_cast<uint32_t>(std::max(5l, sides)));
 }
 
 Cut cut_for(uint32_t triangles, double aspect, uint32_t multiple) {

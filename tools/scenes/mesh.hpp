@@ -60,6 +60,19 @@ struct Ring {
 /// first pole, vertex 1 + r * sides + i point i of ring r, the last vertex the other pole.
 Mesh tube(const Vec3& first_pole, std::span<const Ring> rings, const Vec3& last_pole, uint32_t sides);
 
+/// A closed tube whose last ring is joined to its first: 2 sides * rings.size() triangles.
+Mesh closed_loop(std::span<const Ring> rings, uint32_t sides);
+
+/// A point of a profile that is turned about the Y axis.
+struct ProfilePoint {
+    double radius;
+    double y;
+};
+
+/// A closed solid of revolution, about `triangles` triangles. The profile rises from one pole on the axis to the other; neither
+/// is one of its points.
+Mesh lathe(std::span<const ProfilePoint> profile, uint32_t triangles);
+
 /// How finely a tube is cut.
 struct Cut {
     uint32_t sides = 3;

@@ -20,6 +20,27 @@ struct FigureOptions {
 };
 void make_figure(const std::filesystem::path& path, const FigureOptions& options = {});
 
+/// A skinned figure that kicks: its leg swings toward a directional light before it.
+struct CharacterOptions {
+    uint32_t triangles = 70000;  ///< Of the figure, within 3 %; 2,000 to 2,000,000.
+    bool fill_light = false;
+};
+void make_character(const std::filesystem::path& path, const CharacterOptions& options = {});
+
+/// A skinned figure runs through a hall of two arcades, open to the sky.
+struct RunnerOptions {
+    uint32_t triangles = 262000;  ///< Of the whole scene, within 10 %; 20,000 to 2,000,000.
+    bool fill_light = false;
+};
+void make_runner(const std::filesystem::path& path, const RunnerOptions& options = {});
+
+/// A wrecking ball on a chain swings at a jointed wooden doll.
+struct WreckingBallOptions {
+    uint32_t triangles = 8000;  ///< Of the whole scene, within 10 %; 4,000 to 1,000,000.
+    bool fill_light = false;
+};
+void make_wrecking_ball(const std::filesystem::path& path, const WreckingBallOptions& options = {});
+
 /// Two instances of a tessellated unit cube fly toward a directional light above them, four fifths of their side in a shutter.
 struct TwoCubesOptions {
     uint32_t triangles = 6000;  ///< Of each cube, to the nearest 12 n^2; 12 to 1,000,000.
