@@ -41,6 +41,25 @@ struct WreckingBallOptions {
 };
 void make_wrecking_ball(const std::filesystem::path& path, const WreckingBallOptions& options = {});
 
+/// A tree of branches and leaf cards under a spot light that goes around it.
+struct TreeOptions {
+    uint32_t leaves = 12000;  ///< Two triangles each; 100 to 1,000,000.
+    uint32_t seed = 0;
+    double sway = 0.0;  ///< How far the limbs turn to and fro, radians; 0 to 0.5. Without it only the light moves.
+    bool fill_light = false;
+};
+void make_tree(const std::filesystem::path& path, const TreeOptions& options = {});
+
+/// A game of chess with lathed pieces, some of which fly up from the board and tumble.
+inline constexpr uint32_t kChessPieces = 32;
+struct ChessOptions {
+    uint32_t triangles = 160000;  ///< Of all pieces, within 10 %; 10,000 to 4,000,000.
+    uint32_t moving = 9;          ///< Pieces, 1 to kChessPieces.
+    uint32_t seed = 0;
+    bool fill_light = false;
+};
+void make_chess(const std::filesystem::path& path, const ChessOptions& options = {});
+
 /// Two instances of a tessellated unit cube fly toward a directional light above them, four fifths of their side in a shutter.
 struct TwoCubesOptions {
     uint32_t triangles = 6000;  ///< Of each cube, to the nearest 12 n^2; 12 to 1,000,000.

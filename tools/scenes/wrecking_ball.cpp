@@ -147,7 +147,7 @@ void make_wrecking_ball(const std::filesystem::path& path, const WreckingBallOpt
     add_figure(writer, "doll", doll(share(0.55)), fright());
 
     // Ball and chain are one pendulum about a point over the doll; at 0 s it is nearly at its lowest and fastest.
-    constexpr double kAmplitude = 1.15, kPeriod = 1.0, kFirstAngle = 0.32;
+    constexpr double kAmplitude = 1.1, kPeriod = 2.0, kFirstAngle = 0.26;
     const Vec3 pivot{0.0, kChain + 1.35, 0.0};
     const int pendulum = writer.add_node("pendulum", {pivot, about_z(kFirstAngle)});
     const Mesh links = chain(share(0.22)), ball = iron_ball(share(0.22));
@@ -155,7 +155,7 @@ void make_wrecking_ball(const std::filesystem::path& path, const WreckingBallOpt
     const Primitive iron{&ball, writer.add_material("ball", from_srgb(92, 96, 108))};
     writer.add_mesh_node("chain", writer.add_mesh("chain", {&steel, 1}), {}, pendulum);
     writer.add_mesh_node("ball", writer.add_mesh("ball", {&iron, 1}), {{0.0, -kChain, 0.0}, {}}, pendulum);
-    const std::vector<double> seconds = key_times(1.0, 96);
+    const std::vector<double> seconds = key_times(kPeriod, 96);
     std::vector<Quat> rotations;
     for (const double s : seconds) {
         const double phase = std::asin(kFirstAngle / kAmplitude) - 2.0 * kPi * s / kPeriod;
