@@ -41,7 +41,7 @@ Posture kick_at(double seconds) {
 Motion kick(const Mesh& body) {
     Motion motion{.seconds = key_times(1.0, 96), .postures = {}, .pelvis_seconds = {}, .pelvis_positions = {}};
     for (const double seconds : motion.seconds) motion.postures.push_back(kick_at(seconds));
-    put_on_ground(motion, body, 1, [](double) { return 0.0; });
+    put_on_ground(motion, body, 4, [](double) { return 0.0; });
     return motion;
 }
 

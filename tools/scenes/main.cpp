@@ -31,7 +31,7 @@ make_scenes all -o FOLDER              writes the scenes of the scenes folder
   chess          --triangles N (160000)  --moving PIECES (9)  --seed S (0)  --fill-light yes|no (no)
   two-cubes      --triangles N of each cube (6000)
   random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
-  pillars        --columns N (7)
+  pillars        --columns N (7)  --rising yes|no (no)
   crossing-quads
   receding-quads
   tube           --triangles N (70000)  --pixels P (10)
@@ -147,6 +147,7 @@ void run(const std::string& scene, Options options) {
     } else if (scene == "pillars") {
         makers::PillarsOptions o;
         options.take("--columns", o.columns);
+        options.take_yes("--rising", o.rising);
         make = [=] { makers::make_pillars(output, o); };
     } else if (scene == "crossing-quads") {
         make = [=] { makers::make_crossing_quads(output); };

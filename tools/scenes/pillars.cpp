@@ -18,6 +18,18 @@ Mesh pillar(double radius, double height) {
     return tube({0.0, 0.0, 0.0}, rings, {0.0, height, 0.0}, kSides);
 }
 
+/// Half a metre in the first shutter; one turn and a climb of 3 m in a second.
+Vec3 circling_light(double half, double seconds) {
+    const double angle = 2.0 * kPi * seconds + 0.6;
+    return {(1.6 + half * 0.3) * std::cos(angle), 4.8 + 3.0 * seconds, (1.6 + half * 0.3) * std::sin(angle)};
+}
+
+/// Up and away from the pillars, by a third of its height in the first shutter.
+Vec3 rising_light(double half, double seconds) {
+    const double away = 1.0 + 16.0 * seconds;
+    return Vec3{-1.2 - 0.5 * half, 3.0 + 0.5 * half, 0.6 + 0.1 * half} * away;
+}
+
 }  // namespace
 
 void make_pillars(const std::filesystem::path& path, const PillarsOptions& options) {
@@ -40,15 +52,12 @@ void make_pillars(const std::filesystem::path& path, const PillarsOptions& optio
     const Primitive primitive{&pillars, writer.add_material("pillars", {})};
     writer.add_mesh_node("pillars", writer.add_mesh("pillars", {&primitive, 1}));
 
-    // Half a metre in the first shutter; one turn and a climb of 3 m in a second.
     const std::vector<double> seconds = key_times(1.0, 48);
     std::vector<Vec3> positions;
     std::vector<Quat> rotations;
     for (const double s : seconds) {
-        const double angle = 2.0 * kPi * s + 0.6;
-        const Vec3 position{(1.6 + half * 0.3) * std::cos(angle), 4.8 + 3.0 * s, (1.6 + half * 0.3) * std::sin(angle)};
-        positions.push_back(position);
-        rotations.push_back(look_rotation(position * -1.0, {0.0, 1.0, 0.0}));
+        positions.push_back(options.rising ? rising_light(half, s) : circling_light(half, s));
+        rotations.push_back(look_rotation(positions.back() * -1.0, {0.0, 1.0, 0.0}));
     }
     const int light = writer.add_spot_light("light", {positions[0], rotations[0]}, {1.0, 0.93, 0.82}, 150.0, 0.7, 1.0);
     const int times = writer.add_times(seconds);

@@ -77,9 +77,11 @@ struct RandomCubesOptions {
 };
 void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptions& options = {});
 
-/// A grid of pillars below a spot light that circles over them as it climbs.
+/// A grid of pillars below a spot light that circles over them as it climbs, or flies up and away from them (Andersson et al.
+/// 2015, Fig. 11).
 struct PillarsOptions {
     uint32_t columns = 7;  ///< Along x and z, 1 to 100.
+    bool rising = false;   ///< The light flies up and away.
 };
 void make_pillars(const std::filesystem::path& path, const PillarsOptions& options = {});
 

@@ -7,74 +7,16 @@
 #include <cmath>
 #include <gnomon/error.hpp>
 #include <gnomon/scene.hpp>
-#include <map>
 #include <scenes/scene_makers.hpp>
 #include <set>
 #include <string>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "folder.hpp"
+#include "scene_checks.hpp"
 
 namespace gnomon::makers {
 namespace {
-
-constexpr AnimationChoice kFirstAnimation{AnimationChoice::Kind::one, 0};
-
-std::vector<Triangle> triangles_of(const Scene& scene, const std::string& material) {
-    std::vector<Triangle> found;
-    for (const Triangle& t : scene.triangles) {
-        if (scene.materials[t.material].name == material) found.push_back(t);
-    }
-    EXPECT_FALSE(found.empty()) << material;
-    return found;
-}
-
-/// Every edge belongs to two triangles that run along it in opposite directions, and the inside has a positive volume. Vertices
-/// at one place that move together are one.
-void expect_closed(const Scene& scene, const std::string& material) {
-    using Place = std::tuple<float, float, float, uint32_t>;
-    std::map<Place, uint32_t> numbers;
-    const auto number = [&](uint32_t v) {
-        const Vertex& vertex = scene.vertices[v];
-        const Place place{vertex.position.x, vertex.position.y, vertex.position.z,
-                          scene.influences[vertex.influence_first].matrix};
-        return numbers.try_emplace(place, static_cast<uint32_t>(numbers.size())).first->second;
-    };
-    std::map<std::pair<uint32_t, uint32_t>, int> edges;
-    double volume = 0.0;
-    for (const Triangle& t : triangles_of(scene, material)) {
-        for (int corner = 0; corner < 3; ++corner) {
-            ++edges[{number(t.vertex[corner]), number(t.vertex[(corner + 1) % 3])}];
-        }
-        const glm::dvec3 a = scene.vertices[t.vertex[0]].position, b = scene.vertices[t.vertex[1]].position,
-                         c = scene.vertices[t.vertex[2]].position;
-        volume += glm::dot(a, glm::cross(b, c)) / 6.0;
-    }
-    int wrong = 0;
-    for (const auto& [edge, count] : edges) {
-        const auto opposite = edges.find({edge.second, edge.first});
-        wrong += edge.first == edge.second || count != 1 || opposite == edges.end() || opposite->second != 1;
-    }
-    EXPECT_EQ(wrong, 0) << material << ": edges that are not shared by two triangles, of " << edges.size();
-    EXPECT_GT(volume, 0.0) << material;
-}
-
-std::vector<Pose> default_shutter(const Scene& scene) { return pose_scene(scene, kFirstAnimation, 0.0, kShutterSeconds, 1); }
-
-/// How far each vertex of the material moves in the default shutter, metres.
-std::vector<double> displacements(const Scene& scene, const std::string& material) {
-    const auto poses = default_shutter(scene);
-    const auto open = posed_positions(scene, poses[0]), close = posed_positions(scene, poses[1]);
-    std::set<uint32_t> used;
-    for (const Triangle& t : triangles_of(scene, material)) used.insert(std::begin(t.vertex), std::end(t.vertex));
-    std::vector<double> lengths;
-    for (const uint32_t v : used) lengths.push_back(static_cast<double>(glm::length(close[v] - open[v])));
-    return lengths;
-}
-
-double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
 
 class FigureSizes : public testing::TestWithParam<uint32_t> {};
 
@@ -290,6 +232,12 @@ TEST(Makers, BadOptionsAreErrorsAndLeaveNoFile) {
     EXPECT_EQ(kind_of([&] { make_random_cubes(folder / "a.gltf", {.count = 1, .size = std::nan("")}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_pillars(folder / "a.gltf", {.columns = 0}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_tube(folder / "a.gltf", {.triangles = 10}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_character(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_runner(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_wrecking_ball(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_tree(folder / "a.gltf", {.leaves = 0}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_tree(folder / "a.gltf", {.sway = std::nan("")}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_chess(folder / "a.gltf", {.moving = kChessPieces + 1}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_pillars(folder / "a.obj"); }), ErrorKind::usage);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
     EXPECT_EQ(kind_of([&] { make_pillars(folder / "missing" / "a.gltf"); }), ErrorKind::input);
