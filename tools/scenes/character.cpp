@@ -9,8 +9,8 @@ namespace {
 
 /// The right leg swings forward, fastest in the first shutter, and comes down again within a second.
 Posture kick_at(double seconds) {
-    static constexpr Key kThigh[] = {{-0.13, -0.6}, {0.07, 1.5}, {0.55, 0.3}, {1.0, 0.1}};
-    static constexpr Key kKnee[] = {{-0.1, 1.7}, {0.06, 0.1}, {0.4, 0.7}, {1.0, 0.2}};
+    static constexpr Key kThigh[] = {{-0.11, -0.6}, {0.055, 1.5}, {0.55, 0.3}, {1.0, 0.1}};
+    static constexpr Key kKnee[] = {{-0.08, 1.8}, {0.05, 0.1}, {0.4, 0.7}, {1.0, 0.2}};
     static constexpr Key kLean[] = {{-0.1, -0.12}, {0.12, 0.2}, {0.6, 0.05}, {1.0, 0.0}};
     static constexpr Key kTurn[] = {{-0.1, -0.3}, {0.12, 0.25}, {0.6, 0.05}, {1.0, 0.0}};
     const double lean = eased(kLean, seconds), turn = eased(kTurn, seconds);
@@ -50,13 +50,13 @@ Motion kick(const Mesh& body) {
 void make_character(const std::filesystem::path& path, const CharacterOptions& options) {
     require_range("triangles", options.triangles, 2000, 2e6);
     GltfWriter writer("character");
-    add_studio(writer, 0.7);
+    add_studio(writer, 0.7, 0.6);
     const Mesh body = figure_body(options.triangles);
     add_figure(writer, "character", body, kick(body));
-    writer.add_camera("camera", {2.9, 1.5, 3.3}, {-0.05, 0.84, 0.0}, 0.45, 4.0 / 3.0, 0.1, 100.0);
-    const Vec3 position{5.0, 4.2, 2.1}, target{-0.3, 0.7, 0.0};
-    writer.add_spot_light("light", {position, look_rotation(target - position, {0.0, 1.0, 0.0})}, {1.0, 0.96, 0.9}, 210.0, 0.44,
-                          0.62);
+    writer.add_camera("camera", {2.9, 1.5, 3.3}, {0.05, 0.84, 0.0}, 0.45, 4.0 / 3.0, 0.1, 100.0);
+    const Vec3 position{5.2, 4.0, 1.5}, target{-0.2, 0.8, 0.0};
+    writer.add_spot_light("light", {position, look_rotation(target - position, {0.0, 1.0, 0.0})}, {1.0, 0.96, 0.9}, 210.0, 0.4,
+                          0.56);
     if (options.fill_light) add_fill_light(writer, {0.2, -0.7, -0.8});
     writer.write(path);
 }

@@ -29,7 +29,8 @@ void add_fill_light(GltfWriter& writer, Vec3 direction);
 /// A white material with a checker of 2 x 2 fields to a unit of uv.
 int add_checker_material(GltfWriter& writer, const std::string& name);
 
-/// A chequered floor of 18 x 9 m, y = 0, with a wall behind it at -Z, turned about Y by `turn` radians.
-void add_studio(GltfWriter& writer, double turn = 0.0);
+/// A chequered floor of 18 x 9 m, y = 0, with a wall behind it at -Z, turned about Y by `turn` radians
+/// and scaled.
+void add_studio(GltfWriter& writer, double turn = 0.0, double scale = 1.0);
 
 }  // namespace gnomon::makers

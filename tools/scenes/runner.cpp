@@ -72,6 +72,10 @@ Mesh walls(uint32_t triangles) {
         add({kHalfLength + 0.1, 0.2, kThickness / 2.0}, {0.0, kTop - 0.2, z * kHalfNave});
         add({kHalfLength + 0.5, kGallery / 2.0, 0.2}, {0.0, kGallery / 2.0, z * (kHalfWidth + 0.2)});
         add({0.2, kGallery / 2.0, kHalfWidth - kJoint}, {z * (kHalfLength + 0.7), kGallery / 2.0, 0.0});
+        for (int i = 0; i <= kBays; ++i) {  // Pilasters.
+            all.append(
+                moved(box({0.2, kGallery / 2.0 - 0.3, 0.08}, 1), {kBay * i - kHalfLength, kGallery / 2.0 - 0.3, z * 5.91}));
+        }
     }
     return all;
 }
@@ -97,8 +101,8 @@ void make_runner(const std::filesystem::path& path, const RunnerOptions& options
     const Mesh body = figure_body(share(0.2));
     add_figure(writer, "runner", body, figure_run(body));
 
-    writer.add_camera("camera", {3.3, 1.2, 2.3}, {-0.1, 1.2, -0.35}, 0.66, 16.0 / 9.0, 0.1, 100.0);
-    writer.add_directional_light("light", {-0.3, -1.0, -0.3}, {2.0, 9.0, 2.0}, {1.0, 0.95, 0.86}, 4.2);
+    writer.add_camera("camera", {2.5, 1.25, 2.75}, {0.0, 1.25, -0.3}, 0.68, 16.0 / 9.0, 0.1, 100.0);
+    writer.add_directional_light("light", {-0.55, -1.0, -0.34}, {4.0, 9.0, 2.0}, {1.0, 0.95, 0.86}, 4.2);
     if (options.fill_light) add_fill_light(writer, {0.4, -1.0, -0.7});
     writer.write(path);
 }

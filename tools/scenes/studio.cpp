@@ -51,8 +51,9 @@ int add_checker_material(GltfWriter& writer, const std::string& name) {
     return writer.add_material(name, {}, writer.add_image("checker", checker_png()));
 }
 
-void add_studio(GltfWriter& writer, double turn) {
-    const Studio room = studio();
+void add_studio(GltfWriter& writer, double turn, double scale) {
+    Studio room = studio();
+    for (Mesh* part : {&room.floor, &room.backdrop}) part->map([&](Vec3 p) { return p * scale; });
     const Primitive primitives[] = {{&room.floor, add_checker_material(writer, "floor")},
                                     {&room.backdrop, writer.add_material("backdrop", from_srgb(206, 204, 198))}};
     writer.add_mesh_node("studio", writer.add_mesh("studio", primitives), {{}, axis_angle({0.0, 1.0, 0.0}, turn)});
