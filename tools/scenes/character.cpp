@@ -54,9 +54,7 @@ void make_character(const std::filesystem::path& path, const CharacterOptions& o
     const Mesh body = figure_body(options.triangles);
     add_figure(writer, "character", body, kick(body));
     writer.add_camera("camera", {2.9, 1.5, 3.3}, {0.05, 0.84, 0.0}, 0.45, 4.0 / 3.0, 0.1, 100.0);
-    const Vec3 position{5.2, 4.0, 1.5}, target{-0.2, 0.8, 0.0};
-    writer.add_spot_light("light", {position, look_rotation(target - position, {0.0, 1.0, 0.0})}, {1.0, 0.96, 0.9}, 210.0, 0.4,
-                          0.56);
+    writer.add_spot_light("light", looking_at({5.2, 4.0, 1.5}, {-0.2, 0.8, 0.0}), {1.0, 0.96, 0.9}, 210.0, 0.4, 0.56);
     if (options.fill_light) add_fill_light(writer, {0.2, -0.7, -0.8});
     writer.write(path);
 }

@@ -207,9 +207,7 @@ void make_chess(const std::filesystem::path& path, const ChessOptions& options) 
         }
     }
     writer.add_camera("camera", {3.4, 7.0, 10.0}, {0.0, 0.35, 0.35}, 0.58, 16.0 / 9.0, 0.1, 100.0);
-    const Vec3 position{-6.0, 9.0, 3.0};
-    writer.add_spot_light("light", {position, look_rotation(position * -1.0, {0.0, 1.0, 0.0})}, {1.0, 0.96, 0.9}, 620.0, 0.6,
-                          0.8);
+    writer.add_spot_light("light", looking_at({-6.0, 9.0, 3.0}, {}), {1.0, 0.96, 0.9}, 620.0, 0.6, 0.8);
     if (options.fill_light) add_fill_light(writer, {-0.5, -0.8, -0.6});
     writer.write(path);
 }

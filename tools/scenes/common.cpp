@@ -43,6 +43,8 @@ void add_ground(GltfWriter& writer, double half_size, double y, Rgb color) {
     writer.add_mesh_node("ground", writer.add_mesh("ground", {&primitive, 1}));
 }
 
+Placement looking_at(Vec3 position, Vec3 target) { return {position, look_rotation(target - position, {0.0, 1.0, 0.0})}; }
+
 void add_fill_light(GltfWriter& writer, Vec3 direction) {
     writer.add_directional_light("fill", direction, direction * -5.0, {0.72, 0.84, 1.0}, 0.8);
 }

@@ -23,6 +23,9 @@ std::vector<double> key_times(double end, uint32_t count);
 /// A still horizontal square at height y about (0, 0), two triangles.
 void add_ground(GltfWriter& writer, double half_size, double y, Rgb color);
 
+/// For a light at `position` that shines at `target`, not straight up or down.
+Placement looking_at(Vec3 position, Vec3 target);
+
 /// A weak bluish directional light, the scene's second: it shows what the first leaves black.
 void add_fill_light(GltfWriter& writer, Vec3 direction);
 

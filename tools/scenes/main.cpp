@@ -28,6 +28,7 @@ make_scenes all -o FOLDER              writes the scenes of the scenes folder
   runner         --triangles N (262000)  --fill-light yes|no (no)
   wrecking-ball  --triangles N (8000)  --fill-light yes|no (no)
   tree           --leaves N (12000)  --seed S (0)  --sway RADIANS (0)  --fill-light yes|no (no)
+  octopus        --triangles N (200000)  --seed S (0)  --fill-light yes|no (no)
   chess          --triangles N (160000)  --moving PIECES (9)  --seed S (0)  --fill-light yes|no (no)
   two-cubes      --triangles N of each cube (6000)
   random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
@@ -121,6 +122,12 @@ void run(const std::string& scene, Options options) {
         options.take("--sway", o.sway);
         options.take_yes("--fill-light", o.fill_light);
         make = [=] { makers::make_tree(output, o); };
+    } else if (scene == "octopus") {
+        makers::OctopusOptions o;
+        options.take("--triangles", o.triangles);
+        options.take("--seed", o.seed);
+        options.take_yes("--fill-light", o.fill_light);
+        make = [=] { makers::make_octopus(output, o); };
     } else if (scene == "chess") {
         makers::ChessOptions o;
         options.take("--triangles", o.triangles);

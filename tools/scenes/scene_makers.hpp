@@ -20,7 +20,7 @@ struct FigureOptions {
 };
 void make_figure(const std::filesystem::path& path, const FigureOptions& options = {});
 
-/// A skinned figure that kicks: its leg swings toward a directional light before it.
+/// A skinned figure that kicks: its leg swings toward a spot light before it.
 struct CharacterOptions {
     uint32_t triangles = 70000;  ///< Of the figure, within 3 %; 2,000 to 2,000,000.
     bool fill_light = false;
@@ -49,6 +49,15 @@ struct TreeOptions {
     bool fill_light = false;
 };
 void make_tree(const std::filesystem::path& path, const TreeOptions& options = {});
+
+/// An octopus over a plane, its skinned arms with their suction cups moving in different directions. Camera 1 looks from
+/// above at their shadows.
+struct OctopusOptions {
+    uint32_t triangles = 200000;  ///< Of the octopus, within 10 %; 50,000 to 4,000,000.
+    uint32_t seed = 0;
+    bool fill_light = false;
+};
+void make_octopus(const std::filesystem::path& path, const OctopusOptions& options = {});
 
 /// A game of chess with lathed pieces, some of which fly up from the board and tumble.
 inline constexpr uint32_t kChessPieces = 32;

@@ -156,7 +156,7 @@ void make_tree(const std::filesystem::path& path, const TreeOptions& options) {
     for (const double s : seconds) {
         const double angle = 0.85 + kTurn * s;
         positions.push_back({kDistance * std::cos(angle), kHeight, kDistance * std::sin(angle)});
-        rotations.push_back(look_rotation(Vec3{0.0, 2.4, 0.0} - positions.back(), kUp));
+        rotations.push_back(looking_at(positions.back(), {0.0, 2.4, 0.0}).rotation);
     }
     const int light = writer.add_spot_light("light", {positions[0], rotations[0]}, {1.0, 0.94, 0.82}, 760.0, 0.4, 0.8);
     const int times = writer.add_times(seconds);

@@ -164,9 +164,7 @@ void make_wrecking_ball(const std::filesystem::path& path, const WreckingBallOpt
     writer.animate_rotation(pendulum, writer.add_times(seconds), rotations);
 
     writer.add_camera("camera", {1.4, 1.7, 5.2}, {0.45, 1.2, 0.0}, 0.6, 16.0 / 9.0, 0.1, 100.0);
-    const Vec3 position{4.2, 6.2, 3.2}, target{0.6, 0.9, -0.8};
-    writer.add_spot_light("light", {position, look_rotation(target - position, {0.0, 1.0, 0.0})}, {1.0, 0.96, 0.9}, 260.0, 0.5,
-                          0.85);
+    writer.add_spot_light("light", looking_at({4.2, 6.2, 3.2}, {0.6, 0.9, -0.8}), {1.0, 0.96, 0.9}, 260.0, 0.5, 0.85);
     if (options.fill_light) add_fill_light(writer, {0.3, -0.7, -0.8});
     writer.write(path);
 }

@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 
 constexpr const char* kKeptScenes[] = {"figure", "two-cubes",      "random-cubes",  "pillars",
                                        "tube",   "crossing-quads", "receding-quads"};
-constexpr const char* kLargeScenes[] = {"character", "runner", "wrecking-ball", "tree", "swaying-tree", "chess"};
+constexpr const char* kLargeScenes[] = {"character", "runner", "wrecking-ball", "tree", "swaying-tree", "chess", "octopus"};
 
 /// The kept scenes, and the others as small as they can be.
 void make_every_scene(const std::filesystem::path& folder) {
@@ -31,6 +31,7 @@ void make_every_scene(const std::filesystem::path& folder) {
     make_tree(folder / "tree.gltf", {.leaves = 300});
     make_tree(folder / "swaying-tree.gltf", {.leaves = 300, .sway = 0.1});
     make_chess(folder / "chess.gltf", {.triangles = 10000});
+    make_octopus(folder / "octopus.gltf", {.triangles = 50000});
 }
 
 class File : public testing::TestWithParam<const char*> {

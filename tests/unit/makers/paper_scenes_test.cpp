@@ -18,7 +18,7 @@ double triangle_count(const Scene& scene) { return static_cast<double>(scene.tri
 
 glm::dvec3 axis_of(const Rigid& light) { return light.rotation * glm::dvec3(0.0, 0.0, -1.0); }
 
-/// The light moves between the keys of the pose by about this much, and looks at one point.
+/// The first light always looks at one point.
 void expect_aimed(const std::vector<Pose>& poses, const glm::dvec3& target) {
     for (const Pose& pose : poses) {
         const Rigid& light = pose.lights[0];
@@ -31,7 +31,6 @@ Scene made(const Folder& folder, const Make& make, const Options& options) {
     make(folder / "scene.glb", options);
     Scene scene = load_scene(folder / "scene.glb");
     EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
-    EXPECT_EQ(scene.cameras.size(), 1u);
     return scene;
 }
 
@@ -58,7 +57,7 @@ TEST(Character, KicksTowardTheLightAndStandsOnTheOtherFoot) {
     const auto poses = default_shutter(scene);
     const glm::dvec3 foot(posed_positions(scene, poses[0])[right[0]]);
     const glm::dvec3 to_light = glm::normalize(poses[0].lights[0].translation - foot);
-    EXPECT_GT(glm::dot(mean(motions(scene, right)), to_light), 0.2);
+    EXPECT_GT(glm::dot(mean(motions(scene, right)), to_light), 0.35);
     EXPECT_LT(glm::length(mean(motions(scene, left))), 1e-3);
 
     for (const Pose& pose : pose_scene(scene, kFirstAnimation, 0.0, 1.0, 203)) {
@@ -183,10 +182,43 @@ TEST(Chess, AsManyPiecesFlyAsAskedFor) {
     }
 }
 
+TEST(Octopus, IsAsLargeAsAskedForAndClosed) {
+    const Folder folder;
+    for (const uint32_t triangles : {50000u, 200000u}) {
+        const Scene scene = made(folder, make_octopus, OctopusOptions{.triangles = triangles});
+        EXPECT_NEAR(triangle_count(scene), triangles, 0.1 * triangles);
+        for (const char* material : {"head", "arms"}) expect_closed(scene, material);
+    }
+}
+
+TEST(Octopus, ArmsMoveFastInDifferentDirectionsOverTheGround) {
+    const Folder folder;
+    const Scene scene = made(folder, make_octopus, OctopusOptions{.triangles = 50000});
+    EXPECT_EQ(scene.skin_count, 8u);
+    for (const Pose& pose : pose_scene(scene, kFirstAnimation, 0.0, 1.0, 97)) {
+        const auto positions = posed_positions(scene, pose);
+        for (const uint32_t v : vertices_of(scene, "arms")) ASSERT_GT(positions[v].y, 0.0f) << "at " << pose.seconds << " s";
+    }
+    // The tip of each arm is at 1.9 m in its own space.
+    std::vector<uint32_t> tips;
+    for (const uint32_t v : vertices_of(scene, "arms")) {
+        if (scene.vertices[v].position.x > 1.8999f) tips.push_back(v);
+    }
+    ASSERT_EQ(tips.size(), 8u);
+    double sum = 0.0;
+    const auto moved = motions(scene, tips);
+    for (const glm::dvec3& motion : moved) sum += glm::length(motion) / 8.0;
+    EXPECT_GT(sum, 0.1);
+    EXPECT_LT(glm::length(mean(moved)), 0.6 * sum);
+}
+
 TEST(PaperScenes, DependOnTheSeed) {
     const Folder folder;
     make_tree(folder / "a.glb", {.leaves = 200, .seed = 1});
     make_tree(folder / "b.glb", {.leaves = 200, .seed = 2});
+    EXPECT_NE(bytes_of_file(folder / "a.glb"), bytes_of_file(folder / "b.glb"));
+    make_octopus(folder / "a.glb", {.triangles = 50000, .seed = 1});
+    make_octopus(folder / "b.glb", {.triangles = 50000, .seed = 2});
     EXPECT_NE(bytes_of_file(folder / "a.glb"), bytes_of_file(folder / "b.glb"));
     make_chess(folder / "a.glb", {.triangles = 10000, .seed = 1});
     make_chess(folder / "b.glb", {.triangles = 10000, .seed = 2});
@@ -199,6 +231,7 @@ TEST(PaperScenes, FillLightCanBeAdded) {
     EXPECT_EQ(made(folder, make_wrecking_ball, WreckingBallOptions{.fill_light = true}).lights.size(), 2u);
     EXPECT_EQ(made(folder, make_tree, TreeOptions{.leaves = 100, .fill_light = true}).lights.size(), 2u);
     EXPECT_EQ(made(folder, make_chess, ChessOptions{.triangles = 10000, .fill_light = true}).lights.size(), 2u);
+    EXPECT_EQ(made(folder, make_octopus, OctopusOptions{.triangles = 50000, .fill_light = true}).lights.size(), 2u);
     EXPECT_EQ(made(folder, make_runner, RunnerOptions{.triangles = 20000, .fill_light = true}).lights.size(), 2u);
 }
 

@@ -237,6 +237,7 @@ TEST(Makers, BadOptionsAreErrorsAndLeaveNoFile) {
     EXPECT_EQ(kind_of([&] { make_wrecking_ball(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_tree(folder / "a.gltf", {.leaves = 0}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_tree(folder / "a.gltf", {.sway = std::nan("")}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_octopus(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_chess(folder / "a.gltf", {.moving = kChessPieces + 1}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_pillars(folder / "a.obj"); }), ErrorKind::usage);
     EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
