@@ -22,12 +22,8 @@ Posture kick_at(double seconds) {
     posture.rotations[neck] = about_z(-0.3 * lean - 0.05);
     posture.rotations[head] = axis_angle(up, 0.6 * turn) * about_z(-0.4 * lean);
     // The arms go against the legs, away from the body.
-    for (const int side : {0, static_cast<int>(kSide)}) {
-        const double forward = side == 0 ? turn * 2.4 : -turn * 2.4, outward = side == 0 ? 1.0 : -1.0;
-        pose_arm(posture, side, 0.1 + forward, 0.7, 0.1);
-        const auto upper = static_cast<std::size_t>(left_upper_arm + side);
-        posture.rotations[upper] = axis_angle({1, 0, 0}, outward * 0.55) * posture.rotations[upper];
-    }
+    pose_arm(posture, 0, 0.1 + 2.4 * turn, 0.7, 0.1, 0.55);
+    pose_arm(posture, kSide, 0.1 - 2.4 * turn, 0.7, 0.1, 0.55);
 
     const JointInfo &hips = figure_skeleton()[pelvis], &ankle = figure_skeleton()[left_foot];
     posture.pelvis_position = hips.position + Vec3{0.02, -0.02, 0.0};
@@ -39,7 +35,8 @@ Posture kick_at(double seconds) {
 }
 
 Motion kick(const Mesh& body) {
-    Motion motion{.seconds = key_times(1.0, 96), .postures = {}, .pelvis_seconds = {}, .pelvis_positions = {}};
+    Motion motion;
+    motion.seconds = key_times(1.0, 96);
     for (const double seconds : motion.seconds) motion.postures.push_back(kick_at(seconds));
     put_on_ground(motion, body, 4, [](double) { return 0.0; });
     return motion;

@@ -136,7 +136,7 @@ Mesh piece_mesh(char piece, uint32_t triangles) {
 
 Mesh board() {
     Mesh mesh = box({4.6, 0.15, 4.6}, 1);
-    mesh.map([](Vec3 p) { return p + Vec3{0.0, -0.19, 0.0}; });
+    mesh.map([](Vec3 p) { return p + Vec3{0.0, -0.192, 0.0}; });
     mesh.paint(bytes_of(from_srgb(92, 56, 40)));
     for (int row = 0; row < 8; ++row) {
         for (int file = 0; file < 8; ++file) {

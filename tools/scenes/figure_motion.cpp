@@ -51,10 +51,11 @@ void reach(Posture& posture, int side, Vec3 hip, Vec3 ankle, double pitch) {
     posture.rotations[toes] = about_z(toe_pitch(pitch));
 }
 
-void pose_arm(Posture& posture, int side, double upper_arm, double forearm, double hand) {
+void pose_arm(Posture& posture, int side, double upper_arm, double forearm, double hand, double sideways) {
     const auto upper = static_cast<std::size_t>(left_upper_arm + side);
-    const double outward = side == 0 ? 1.0 : -1.0;  // Rotation about +X that brings the arm to the body.
-    posture.rotations[upper] = about_z(upper_arm) * axis_angle({1.0, 0.0, 0.0}, -outward * (kArmAngle - 0.12));
+    const double outward = side == 0 ? 1.0 : -1.0;  // About +X, the sense that takes the arm from the body.
+    const auto about_x = [&](double angle) { return axis_angle({1.0, 0.0, 0.0}, outward * angle); };
+    posture.rotations[upper] = about_x(sideways) * about_z(upper_arm) * about_x(0.12 - kArmAngle);
     posture.rotations[upper + 1] = about_z(forearm);
     posture.rotations[upper + 2] = about_z(hand);
 }

@@ -34,8 +34,8 @@ double toe_pitch(double pitch);
 /// Bend one leg so that the ankle is at `ankle`, in the plane z = hip's z. side: 0 left, kSide right.
 void reach(Posture& posture, int side, Vec3 hip, Vec3 ankle, double pitch);
 
-/// Angles from hanging straight down, forward positive, each relative to the one before.
-void pose_arm(Posture& posture, int side, double upper_arm, double forearm, double hand);
+/// Angles from hanging straight down, forward positive, each relative to the one before; then the arm is raised sideways.
+void pose_arm(Posture& posture, int side, double upper_arm, double forearm, double hand, double sideways = 0.0);
 
 /// World positions of some vertices of `body`, by index.
 std::vector<Vec3> posed_vertices(const Mesh& body, const Posture& posture, const std::vector<uint32_t>& vertices);

@@ -30,15 +30,15 @@ void for_both_rows(int count, const Place& place) {
 Mesh columns(uint32_t triangles) {
     static constexpr ProfilePoint kLarge[] = {
         {0.36, 0.0}, {0.36, 0.14}, {0.31, 0.17}, {0.34, 0.21}, {0.34, 0.25},  {0.29, 0.3},  {0.25, 0.34}, {0.245, 1.4},
-        {0.21, 2.3}, {0.24, 2.33}, {0.24, 2.37}, {0.21, 2.4},  {0.215, 2.48}, {0.32, 2.64}, {0.34, 2.65}, {0.34, 2.798}};
-    static constexpr ProfilePoint kSmall[] = {{0.13, 0.0},  {0.13, 0.07}, {0.09, 0.12}, {0.08, 0.7},
-                                              {0.07, 1.14}, {0.12, 1.26}, {0.13, 1.27}, {0.13, 1.34}};
+        {0.21, 2.3}, {0.24, 2.33}, {0.24, 2.37}, {0.21, 2.4},  {0.215, 2.48}, {0.32, 2.64}, {0.34, 2.65}, {0.34, 2.81}};
+    static constexpr ProfilePoint kSmall[] = {{0.13, 0.0}, {0.13, 0.07}, {0.09, 0.12}, {0.08, 0.7},
+                                              {0.07, 1.2}, {0.12, 1.32}, {0.13, 1.33}, {0.13, 1.42}};
     constexpr int kSmallIntervals = 3 * kBays;
     const Mesh large = lathe(kLarge, triangles * 7 / 10 / (2 * (kBays + 1)));
     const Mesh small = lathe(kSmall, triangles * 3 / 10 / (2 * (kSmallIntervals + 1)));
     Mesh all;
     for_both_rows(kBays, [&](double x, double z) { all.append(moved(large, {x, 0.0, z})); });
-    for_both_rows(kSmallIntervals, [&](double x, double z) { all.append(moved(small, {x, kGallery + kJoint, z})); });
+    for_both_rows(kSmallIntervals, [&](double x, double z) { all.append(moved(small, {x, kGallery - 0.01, z})); });
     return all;
 }
 
@@ -68,13 +68,13 @@ Mesh walls(uint32_t triangles) {
         all.append(moved(box(half_size, box_divisions(triangles / 50)), center));
     };
     for (const double z : {-1.0, 1.0}) {
-        add({kHalfLength + 0.1, 0.1 - kJoint, kThickness / 2.0 + 0.1}, {0.0, kGallery - 0.1, z * kHalfNave});
+        add({kHalfLength + 0.1, 0.11, kThickness / 2.0 + 0.1}, {0.0, kGallery - 0.1, z * kHalfNave});
         add({kHalfLength + 0.1, 0.2, kThickness / 2.0}, {0.0, kTop - 0.2, z * kHalfNave});
         add({kHalfLength + 0.5, kGallery / 2.0, 0.2}, {0.0, kGallery / 2.0, z * (kHalfWidth + 0.2)});
         add({0.2, kGallery / 2.0, kHalfWidth - kJoint}, {z * (kHalfLength + 0.7), kGallery / 2.0, 0.0});
         for (int i = 0; i <= kBays; ++i) {  // Pilasters.
             all.append(
-                moved(box({0.2, kGallery / 2.0 - 0.3, 0.08}, 1), {kBay * i - kHalfLength, kGallery / 2.0 - 0.3, z * 5.91}));
+                moved(box({0.2, kGallery / 2.0 - 0.3, 0.08}, 1), {kBay * i - kHalfLength, kGallery / 2.0 - 0.3, z * 5.93}));
         }
     }
     return all;

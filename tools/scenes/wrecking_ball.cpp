@@ -75,11 +75,8 @@ Posture fright_at(double seconds) {
     posture.rotations[spine] = about_z(0.4 * lean);
     posture.rotations[chest] = about_z(0.4 * lean);
     posture.rotations[head] = about_z(-0.3 * lean);
-    for (const int side : {0, static_cast<int>(kSide)}) {
-        pose_arm(posture, side, arms, 0.5, 0.3);
-        const auto upper = static_cast<std::size_t>(left_upper_arm + side);
-        posture.rotations[upper] = axis_angle({1, 0, 0}, side == 0 ? 0.35 : -0.35) * posture.rotations[upper];
-    }
+    pose_arm(posture, 0, arms, 0.5, 0.3, 0.35);
+    pose_arm(posture, kSide, arms, 0.5, 0.3, 0.35);
     const auto& skeleton = figure_skeleton();
     posture.pelvis_position = skeleton[pelvis].position + Vec3{-0.1 * lean, -0.1 - 0.04 * lean, 0.0};
     const auto world = world_of(posture);
@@ -92,7 +89,8 @@ Posture fright_at(double seconds) {
 }
 
 Motion fright() {
-    Motion motion{.seconds = key_times(1.0, 96), .postures = {}, .pelvis_seconds = {}, .pelvis_positions = {}};
+    Motion motion;
+    motion.seconds = key_times(1.0, 96);
     for (const double seconds : motion.seconds) {
         motion.postures.push_back(fright_at(seconds));
         motion.pelvis_positions.push_back(motion.postures.back().pelvis_position);
