@@ -41,7 +41,7 @@ struct WreckingBallOptions {
 };
 void make_wrecking_ball(const std::filesystem::path& path, const WreckingBallOptions& options = {});
 
-/// A tree of branches and leaf cards under a spot light that goes around it.
+/// A tree of branches and leaf cards under a spot light that flies past it.
 struct TreeOptions {
     uint32_t leaves = 12000;  ///< Two triangles each; 100 to 1,000,000.
     uint32_t seed = 0;

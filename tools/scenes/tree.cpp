@@ -148,22 +148,17 @@ void make_tree(const std::filesystem::path& path, const TreeOptions& options) {
     add("branches", branches);
     add("leaves", leaves);
 
-    // The light goes around the tree, 0.9 m in the first shutter.
-    constexpr double kDistance = 7.0, kHeight = 11.0, kTurn = 6.2;
-    std::vector<Vec3> positions;
-    std::vector<Quat> rotations;
+    // The light flies to and fro past the tree, 0.9 m in the first shutter, and does not turn.
+    constexpr double kReach = 3.48, kSwings = 2.0;
+    const Vec3 middle{4.6, 11.0, 5.3}, along = normalized({-5.3, 0.0, 4.6});
+    const Placement aimed = looking_at(middle, {0.0, 2.4, 0.0});
     const std::vector<double> seconds = key_times(1.0, 96);
-    for (const double s : seconds) {
-        const double angle = 0.85 + kTurn * s;
-        positions.push_back({kDistance * std::cos(angle), kHeight, kDistance * std::sin(angle)});
-        rotations.push_back(looking_at(positions.back(), {0.0, 2.4, 0.0}).rotation);
-    }
-    const int light = writer.add_spot_light("light", {positions[0], rotations[0]}, {1.0, 0.94, 0.82}, 760.0, 0.4, 0.8);
-    const int times = writer.add_times(seconds);
-    writer.animate_translation(light, times, positions);
-    writer.animate_rotation(light, times, rotations);
+    std::vector<Vec3> positions;
+    for (const double s : seconds) positions.push_back(middle + along * (kReach * std::sin(2.0 * kPi * kSwings * s)));
+    const int light = writer.add_spot_light("light", aimed, {1.0, 0.94, 0.82}, 760.0, 0.4, 0.8);
+    writer.animate_translation(light, writer.add_times(seconds), positions);
     if (options.fill_light) add_fill_light(writer, {0.3, -0.7, -0.8});
-    writer.add_camera("camera", {2.2, 8.0, 13.0}, {-0.6, 2.75, 0.0}, 0.54, 16.0 / 9.0, 0.1, 200.0);
+    writer.add_camera("camera", {2.2, 8.0, 13.0}, {-0.6, 2.95, 0.0}, 0.56, 16.0 / 9.0, 0.1, 200.0);
     writer.write(path);
 }
 
