@@ -65,7 +65,7 @@ Mesh doll(uint32_t triangles) {
     return mesh;
 }
 
-/// It stands in the way, throws up its arms and leans back: the hands rise by half their height in the first shutter.
+/// It stands in the way, throws up its arms and leans back: the hands move almost half a metre in the first shutter.
 Posture fright_at(double seconds) {
     static constexpr Key kArms[] = {{-0.05, 0.4}, {0.07, 2.5}, {1.0, 2.7}};
     static constexpr Key kLean[] = {{-0.05, 0.0}, {0.12, 0.75}, {1.0, 0.9}};
