@@ -27,8 +27,9 @@ Mesh arm(uint32_t triangles) {
 
     const Cut cup_cut = cut_for(triangles * 4 / 10 / (2 * kCups), 0.5);
     for (uint32_t i = 0; i < 2 * kCups; ++i) {
-        const double x = kLength * (0.08 + 0.86 * (i / 2 + 0.5 * (i % 2)) / kCups), width = radius_at(x), size = 0.42 * width;
-        const Quat tilt = axis_angle({1, 0, 0}, i % 2 == 0 ? 0.5 : -0.5);
+        const uint32_t row = i % 2, place = i / 2;
+        const double x = kLength * (0.08 + 0.86 * (place + 0.5 * row) / kCups), width = radius_at(x), size = 0.42 * width;
+        const Quat tilt = axis_angle({1, 0, 0}, row == 0 ? 0.5 : -0.5);
         Mesh cup = sphere(size, cup_cut);
         cup.map([&](Vec3 p) { return Vec3{x, 0.0, 0.0} + rotate(tilt, Vec3{p.x, 0.6 * p.y - width - 0.1 * size, p.z}); });
         cup.smooth_normals();
