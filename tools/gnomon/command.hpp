@@ -31,6 +31,7 @@ void add_info(CLI::App& app, Invocation& invocation);
 void add_devices(CLI::App& app, Invocation& invocation);
 void add_methods(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
+void add_ranges(CLI::App& app, Invocation& invocation);
 
 /// Messages go to stderr as `gnomon: LEVEL: TEXT`, in colour on a terminal unless NO_COLOR is set.
 void start_log();

@@ -27,6 +27,7 @@ int run(int argc, char** argv) {
     gnomon::cli::add_devices(app, invocation);
     gnomon::cli::add_methods(app, invocation);
     gnomon::cli::add_compare(app, invocation);
+    gnomon::cli::add_ranges(app, invocation);
 
     try {
         app.parse(argc, argv);

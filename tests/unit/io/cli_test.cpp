@@ -40,7 +40,8 @@ TEST_F(CliTest, HelpGoesToStdout) {
                                                                                            {"info", "--help"},
                                                                                            {"devices", "--help"},
                                                                                            {"methods", "--help"},
-                                                                                           {"compare", "--help"}}) {
+                                                                                           {"compare", "--help"},
+                                                                                           {"ranges", "--help"}}) {
         const CommandResult result = run(arguments);
         EXPECT_EQ(result.exit_code, 0) << arguments[0];
         EXPECT_THAT(result.out, HasSubstr("Usage: gnomon")) << arguments[0];
@@ -184,6 +185,19 @@ TEST_F(CliTest, Devices) {
     EXPECT_EQ(chosen, usable ? 1 : 0);
     EXPECT_EQ(result.exit_code, usable ? 0 : 4);
     EXPECT_EQ(result.err.find("no usable Vulkan device") != std::string::npos, !usable);
+}
+
+TEST_F(CliTest, RangesOfALightsView) {
+    put_content(folder / "a.gltf", tiny_scene());
+    const CommandResult text = run({"ranges", "a.gltf", "--shadow-res", "32"});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_THAT(text.out, AllOf(HasSubstr("triangles in texels"), HasSubstr("prism's linear depth")));
+    const json document = json::parse(run({"ranges", "a.gltf", "--shadow-res", "32", "--json", "-"}).out);
+    EXPECT_GT(document.at("pairs").get<uint64_t>(), 10u);
+    EXPECT_EQ(document.at("missed"), 0);
+    const CommandResult wrong = run({"ranges", "a.gltf", "--light", "7"});
+    EXPECT_EQ(wrong.exit_code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("there is no light 7"));
 }
 
 }  // namespace gnomon::test
