@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <gnomon/error.hpp>
 
+#include "end_to_end/moving_triangles.hpp"
 #include "layouts/layout.hpp"
 #include "support/two_cubes.hpp"
 
@@ -121,6 +122,38 @@ TEST_F(DtrTest, BackFacesCanBeLeftOut) {
     EXPECT_GT(front, all / 4);
     settings.raster = "analytic";
     EXPECT_THROW(render("dtr"), Error);
+}
+
+// Under a roof at rest: its triangle covers every texel in which it is, and what is below is dark without a range being asked.
+TEST(TemporalTest, WhatIsCoveredIsDarkWithoutRanges) {
+    MovingTriangles scene(1);
+    scene.add({glm::vec3(-20, 5, -20), {20, 5, -20}, {0, 5, 40}});
+    const uint32_t floor = scene.add({glm::vec3(-9, 0, -4), {9, 0, -4}, {0, 0, 9}}, glm::vec3(1, 0, 0));
+    const glm::dquat down = glm::angleAxis(glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0));
+    Camera camera;
+    camera.kind = CameraKind::orthographic;
+    camera.xmag = camera.ymag = 1.0;
+    scene.add(camera, {{glm::dvec3(0, 3, 0), down}});
+    scene.add(Light{}, {{glm::dvec3(0, 12, 0), down}});
+    RenderSettings settings;
+    settings.width = settings.height = 24;
+    settings.spp = 4;
+    settings.shadow_res = 64;
+    settings.keep_samples = settings.count_ranges = true;
+    settings.method = "temporal";
+    Renderer renderer("", true);
+    const Frame frame = renderer.render(scene.scene, scene.poses, settings);
+    for (const SampleRecord& s : frame.samples) {
+        EXPECT_EQ(s.triangle, floor);
+        EXPECT_EQ(s.lit & 1u, 0u);
+    }
+    EXPECT_EQ(frame.stats.counts.at("ranges_visited"), 0u);
+    // Seen from above, the roof is what the light reaches.
+    for (Pose& pose : scene.poses) pose.cameras[0].translation.y = 10.0;
+    for (const SampleRecord& s : renderer.render(scene.scene, scene.poses, settings).samples) {
+        EXPECT_NE(s.triangle, floor);
+        EXPECT_EQ(s.lit & 1u, 1u);
+    }
 }
 
 }  // namespace
