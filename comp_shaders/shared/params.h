@@ -109,7 +109,6 @@ struct MapDepthParams {
     uint stratum_count;
     uint spp;
     uint seed;
-    uint element_first;  // Where the batch's samples go: per tile, stratum and texel.
 };
 
 struct ClusterParams {
@@ -117,6 +116,31 @@ struct ClusterParams {
     uint spp;
     uint texel_first;    // Its place among the map's.
     uint cluster_first;  // The number of its first cluster.
+};
+
+// methods/fssm/layers and reproject. Tiles are the method's own, rows of tiles_x.
+struct FssmParams {
+    ViewGrid grid;  // Of the light's map.
+    uint tiles_x;
+    uint tile_first;  // Tiles [tile_first, tile_first + tile_count) of the map.
+    uint tile_count;
+    uint layer_first;        // Where the first tile's layers are in memory,
+    uint tuple_first;        // and its tuples in the bound memory.
+    uint sample_tile_first;  // The tile of the map, of 8 x 8 texels, whose samples are the first in memory,
+    uint sample_stride;      // and samples from one stratum to the next.
+    uint spp;
+    uint seed;
+    uint stratum_first;  // Strata [stratum_first, stratum_first + stratum_count).
+    uint stratum_count;
+};
+
+struct FssmMipParams {
+    uint layer_count;
+    uint layer_first;  // Number in memory of the first layer,
+    uint tuple_first;  // and where its tuples are in the bound memory.
+    uint from;         // Place in a layer of the level that is read,
+    uint to;           // and of that which is written,
+    uint level_bits;   // whose width is 2^level_bits texels.
 };
 
 struct CompactParams {

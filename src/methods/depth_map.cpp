@@ -41,25 +41,32 @@ uint32_t map_seed(const LightContext& light) {
     return shared::hash_pcg(light.settings.seed ^ shared::hash_pcg(light.light_ix + 1));
 }
 
-float map_bias(const LightContext& light) {
+float map_bias(const LightContext& light, double texels) {
     // A surface that the light meets at 45 degrees is sqrt(2) texels deeper in one corner of a texel than in the other.
     const double diagonal = glm::length(glm::dvec3(light.bounds.upper) - glm::dvec3(light.bounds.lower));
     const double texel = (light.view.orthographic ? 1.0 : diagonal) / std::min(light.view.scale_x, light.view.scale_y);
-    return static_cast<float>(light.parameter("bias").value_or(2.0 * texel));
+    return static_cast<float>(light.parameter("bias").value_or(texels * texel));
+}
+
+std::map<std::string, std::string> map_effective(const Sampling& sampling, float bias) {
+    std::ostringstream metres;
+    metres << bias;
+    return {{sampling.sliced ? "slices" : "map_spp", std::to_string(sampling.spp)}, {"bias", metres.str()}};
 }
 
 void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bins& bins, Tracer& tracer,
-                   const Sampling& sampling, bool motion, const Batch& batch, const gpu::Buffer& samples, uint32_t first) {
+                   const Sampling& sampling, uint32_t floats, const Batch& batch, const gpu::Buffer& samples, uint64_t first) {
+    const uint64_t element = floats * sizeof(float);
     tracer.record(recorder, batch);
     recorder.dispatch(
         "map/depth",
-        light.programs.get("methods/depth_map/depth", {light.view.orthographic, tracer.straddle(), motion, sampling.sliced}),
+        light.programs.get("methods/depth_map/depth", {light.view.orthographic, tracer.straddle(), floats, sampling.sliced}),
         bindings({{"hits", &tracer.hits(), Texel::r32_uint},
                   {"triangles", &light.geometry.triangles, Texel::rgba32_uint},
                   {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
-                  {"MapSamples", &samples}}),
+                  {"MapSamples", &samples, {}, first * element, batch.slot_count() * element}}),
         shared::MapDepthParams{bins.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
-                               sampling.spp, sampling.seed, first},
+                               sampling.spp, sampling.seed},
         groups_of(batch.slot_count(), 64));
 }
 
@@ -80,12 +87,6 @@ DepthMap::DepthMap(const LightContext& light, const Bins& bins, DepthMapKind kin
 std::map<std::string, uint64_t> DepthMap::counts() const {
     const uint64_t samples = uint64_t(item_count()) * shared::kTileTexels;
     return {{"map_samples", samples}, {"map_bytes", samples * sample_bytes()}};
-}
-
-std::map<std::string, std::string> DepthMap::effective() const {
-    std::ostringstream bias;
-    bias << map_bias(light_);
-    return {{sampling_.sliced ? "slices" : "map_spp", std::to_string(sampling_.spp)}, {"bias", bias.str()}};
 }
 
 std::vector<Band> DepthMap::bands(uint64_t bytes) const {
@@ -114,8 +115,8 @@ void DepthMap::fill(const Band& band) {
     gpu::Recorder recorder(light_.device);
     const uint32_t first = band.item_first / tile_count_, count = band.item_count / tile_count_;
     for (uint32_t s = 0; s < count; ++s) {
-        record_depths(recorder, light_, bins_, tracer_, sampling_, motion(), {0, tile_count_, first + s, 1}, samples_,
-                      s * tile_count_ * shared::kTileTexels);
+        record_depths(recorder, light_, bins_, tracer_, sampling_, sample_floats(), {0, tile_count_, first + s, 1}, samples_,
+                      uint64_t(s) * tile_count_ * shared::kTileTexels);
     }
     recorder.submit();
 }

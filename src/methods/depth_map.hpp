@@ -28,13 +28,16 @@ Sampling map_sampling(const LightContext& light, DepthMapKind kind);
 /// A seed of the light's own.
 uint32_t map_seed(const LightContext& light);
 
-/// Metres: bias, else twice a texel's width; of a spot's, at a distance of the diagonal of the scene's bounds.
-float map_bias(const LightContext& light);
+/// Metres: bias, else so many texels' widths; of a spot's, at a distance of the diagonal of the scene's bounds.
+float map_bias(const LightContext& light, double texels = 2.0);
 
-/// Trace a batch of a light's samples and write their depths to elements [first, ...) of `samples`: a float each, or two, with
-/// the motion.
+/// map_spp (slices) and bias, as they are used.
+std::map<std::string, std::string> map_effective(const Sampling& sampling, float bias);
+
+/// Trace a batch of a light's samples and write them to elements [first, ...) of `samples`, of so many floats: 1, the depth; 2,
+/// with the motion along the axis; 4, with the motion in x and y before it.
 void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bins& bins, Tracer& tracer,
-                   const Sampling& sampling, bool motion, const Batch& batch, const gpu::Buffer& samples, uint32_t first);
+                   const Sampling& sampling, uint32_t floats, const Batch& batch, const gpu::Buffer& samples, uint64_t first);
 
 class DepthMap final : public ShadowMap {
 public:
@@ -43,7 +46,7 @@ public:
     ItemOrder order() const override { return {sampling_.spp, 1, tile_count_}; }
     uint32_t item_count() const override { return sampling_.spp * tile_count_; }
     std::map<std::string, uint64_t> counts() const override;
-    std::map<std::string, std::string> effective() const override;
+    std::map<std::string, std::string> effective() const override { return map_effective(sampling_, map_bias(light_)); }
     std::vector<Band> bands(uint64_t bytes) const override;
     void fill(const Band& band) override;
     std::vector<gpu::Binding> read_bindings() const override;
@@ -52,7 +55,8 @@ public:
 
 private:
     bool motion() const { return kind_ == DepthMapKind::dynamic_bias; }
-    uint64_t sample_bytes() const { return motion() ? 8 : 4; }
+    uint32_t sample_floats() const { return motion() ? 2 : 1; }
+    uint64_t sample_bytes() const { return sample_floats() * sizeof(float); }
 
     const LightContext& light_;
     const Bins& bins_;

@@ -106,7 +106,7 @@ gpu::Buffer DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samp
                           params, groups_of(texels, 64));
     };
     gpu::Recorder recorder(device);
-    record_depths(recorder, light_, bins_, tracer, sampling_, false, batch, samples, 0);
+    record_depths(recorder, light_, bins_, tracer, sampling_, 1, batch, samples, 0);
     recorder.fill("map/cluster", counts, 0);
     record(recorder, false, unbound_);
     const Scan scan = record_scan(device, light_.programs, recorder, counts, texels);

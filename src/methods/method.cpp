@@ -8,6 +8,7 @@
 
 #include "methods/depth_map.hpp"
 #include "methods/dsm.hpp"
+#include "methods/fssm.hpp"
 #include "methods/ranges.hpp"
 #include "pipeline/memory_plan.hpp"
 
@@ -107,6 +108,18 @@ const std::vector<Method>& methods() {
                  return camera_cells(dsm_sampling(light).spp, light.geometry.segment_count, light.still);
              },
          .make_map = make_deep_shadow_map},
+        {.name = "fssm",
+         .summary = "layers of a stochastic map, moved along their mean motion and filtered; shares by the variance test",
+         .source = "Andersson et al. 2015, 4 and 5",
+         .shadow_stage = "methods/fssm/shadow",
+         .fractional = true,
+         .parameters = fssm_parameters(),
+         .light_cells =
+             [](const LightContext& light) {
+                 return camera_cells(map_sampling(light, DepthMapKind::stochastic).spp, light.geometry.segment_count,
+                                     light.still);
+             },
+         .make_map = [](const LightContext& light, const Bins& bins) { return std::make_unique<Fssm>(light, bins); }},
         depth_map_method("accumulate", "hard shadow maps of many times; a hit is tested against that of the nearest",
                          "Haeberli and Akeley 1990", DepthMapKind::slices),
     };

@@ -43,6 +43,7 @@ struct LightContext {
     uint64_t bytes = 0;  ///< Its share of the memory budget.
     Layout layout;       ///< Of the S-buffer, where the method has one; likewise the stage that finds its ranges.
     std::string raster;
+    const View* camera = nullptr;  ///< The camera's view.
 
     std::optional<double> parameter(const std::string& name) const;
 };

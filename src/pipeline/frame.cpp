@@ -207,7 +207,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     std::vector<LightContext> contexts;
     for (const LightSide& side : sides) {
         contexts.push_back({device, programs, geometry, settings, method, side.view, bounds, side.light_ix, is_still(poses),
-                            budget / sides.size(), layout, raster});
+                            budget / sides.size(), layout, raster, &view});
     }
     for (size_t i = 0; i < sides.size(); ++i) {
         LightSide& side = sides[i];
