@@ -68,10 +68,10 @@ std::vector<Parameter> fssm_parameters() {
     };
     add("layers", "layers", "Most layers of depth in a tile", "4", 1, shared::kMostLayers);
     add("tile", "texels", "Side of a tile: 8 (window 16, grid 16) or 4 (12, 8)", "8", 4, 8);
-    add("footprint", "0 or 1", "Filter along the hit's way during a camera sample's share of the shutter", "1", 0, 1);
-    add("widen", "0 or 1", "Widen the filter where it meets no sample", "1", 0, 1);
-    add("tent", "0 or 1", "Filter across the motion of fast layers", "1", 0, 1);
-    add("neighbours", "0 or 1", "Near a tile's border look some hits up in the neighbour", "1", 0, 1);
+    add("footprint", "switch", "Filter along the hit's way during a camera sample's share of the shutter", "1", 0, 1);
+    add("widen", "switch", "Widen the filter where it meets no sample", "1", 0, 1);
+    add("tent", "switch", "Filter across the motion of fast layers", "1", 0, 1);
+    add("neighbours", "switch", "Near a tile's border look some hits up in the neighbour", "1", 0, 1);
     return all;
 }
 
