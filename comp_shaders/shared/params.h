@@ -88,6 +88,14 @@ struct RasterParams {
     uint fragment_first;  // raster/prism: the number of the first fragment in memory.
 };
 
+struct TexelRangesParams {
+    ViewGrid grid;
+    uint item_first;  // Items whose ranges are in memory.
+    uint item_count;
+    uint range_first;  // The number of the first range in memory.
+    uint part;         // How many times kListChunk ranges of each list were walked before.
+};
+
 struct TraceParams {
     ViewGrid grid;
     uint tile_first;  // The batch: tiles [tile_first, tile_first + tile_count), strata [stratum_first, ...).

@@ -25,9 +25,10 @@ struct RenderSettings {
         "auto";  ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
-    uint64_t memory_budget = 0;  ///< Most bytes of device memory; 0: half the device's heap.
-    bool keep_samples = false;   ///< Fill Frame::samples.
-    bool count_ranges = false;   ///< Count the ranges that the shadow tests look at and test; costs some percent.
+    uint64_t memory_budget = 0;      ///< Most bytes of device memory; 0: half the device's heap.
+    bool keep_samples = false;       ///< Fill Frame::samples.
+    bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges.
+    bool count_ranges = false;       ///< Count the ranges that the shadow tests look at and test; costs some percent.
 };
 
 /// What one camera sample found. Index (y * width + x) * spp + s in Frame::samples.
@@ -49,6 +50,7 @@ struct FrameStats {
         std::string name;
         double seconds = 0.0;
         uint64_t dispatches = 0;
+        double map_seconds = 0.0;  ///< Of `seconds`, those that went into what the lights' shadow tests read.
     };
     std::vector<Stage> stages;
     std::map<std::string, uint64_t> buffer_bytes;  ///< Largest size of each buffer.
@@ -64,7 +66,10 @@ struct Frame {
     uint32_t light_count = 0;
     std::vector<Channel> channels;  ///< R G B A Z, then visibility.<i> and visibility_var.<i> for each light.
     std::vector<SampleRecord> samples;
-    std::vector<float> sample_visibility;          ///< Of methods that give shares: index sample * light_count + light.
+    std::vector<float> sample_visibility;  ///< Of methods that give shares: index sample * light_count + light.
+    /// By light: how many ranges each texel of its view has in the whole shutter (shadow_res squared, rows from the top); empty
+    /// for lights and methods without ranges.
+    std::vector<std::vector<uint32_t>> texel_ranges;
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
 };

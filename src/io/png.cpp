@@ -41,7 +41,7 @@ std::vector<uint8_t> tone_map(std::span<const Channel> channels, double exposure
     return rgb;
 }
 
-void write_png(const std::filesystem::path& path, uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
+std::vector<std::byte> encode_png(uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
     assert(rgb.size() == uint64_t{width} * height * 3);
     png_image image{};
     image.version = PNG_IMAGE_VERSION;
@@ -51,10 +51,14 @@ void write_png(const std::filesystem::path& path, uint32_t width, uint32_t heigh
     png_alloc_size_t bytes = PNG_IMAGE_PNG_SIZE_MAX(image);
     std::vector<std::byte> encoded(bytes);
     if (png_image_write_to_memory(&image, encoded.data(), &bytes, 0, rgb.data(), 0, nullptr) == 0)
-        throw Error(ErrorKind::internal, std::string("libpng refused the image: ") + image.message, path.string(),
-                    "please report it");
+        throw Error(ErrorKind::internal, std::string("libpng refused the image: ") + image.message, "", "please report it");
+    encoded.resize(bytes);
+    return encoded;
+}
+
+void write_png(const std::filesystem::path& path, uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
     AtomicFile file(path);
-    file.write(std::span(encoded).first(bytes));
+    file.write(encode_png(width, height, rgb));
     file.commit();
 }
 

@@ -32,7 +32,10 @@ Json render_json(const Frame& frame, const Json& settings, const std::vector<std
     const FrameStats& stats = frame.stats;
     Json stages = Json::array();
     for (const FrameStats::Stage& stage : stats.stages)
-        stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"dispatches", stage.dispatches}});
+        stages.push_back({{"name", stage.name},
+                          {"seconds", stage.seconds},
+                          {"map_seconds", stage.map_seconds},
+                          {"dispatches", stage.dispatches}});
 
     Json json = document("render");
     json["device"] = stats.device;

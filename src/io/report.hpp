@@ -16,14 +16,15 @@ using Json = nlohmann::ordered_json;
 /// may be added under the same schema version; what a field means changes only with it.
 Json document(const std::string& kind);
 
-/// All of RenderSettings but keep_samples, by member name; the image's size is "width" and "height".
+/// What a picture depends on, by member name; the image's size is "width" and "height".
 Json settings_json(const RenderSettings& settings);
 
 /// The document "gnomon.render" of one frame:
 ///   device        string
 ///   settings      object, as given
 ///   effective     {name: string}, what was really used where the settings leave a choice
-///   stages        [{name, seconds, dispatches}], seconds on the device, in the order in which the stages ran first
+///   stages        [{name, seconds, map_seconds, dispatches}], seconds on the device, and those of them that went into what the
+///                 lights' shadow tests read; in the order in which the stages ran first
 ///   buffers       {name: bytes}, the largest size of each
 ///   peak_bytes    most device memory at one time
 ///   counts        {name: number}: triangles, prisms, ranges, samples, hits, shadow_tests, ...

@@ -24,7 +24,7 @@ constexpr size_t kMostNested = 32;  // Includes; glslang itself has no limit.
 constexpr uint32_t kFirstBinding = 16;
 constexpr const char* kHint = "see ARCHITECTURE.md, A new layout";
 
-const SourceEntry* find_source(const std::string& name) {
+const EmbeddedFile* find_source(const std::string& name) {
     auto found = std::find_if(std::begin(kSourceTable), std::end(kSourceTable), [&](const auto& s) { return s.name == name; });
     return found == std::end(kSourceTable) ? nullptr : found;
 }
@@ -50,7 +50,7 @@ private:
         if (from.is_absolute()) return in_folder(header, from);
         if (header == "layout.glsl") return in_folder(header, folder_);
         for (const fs::path& name : {(from / header).lexically_normal(), header}) {
-            if (const SourceEntry* source = find_source(name.generic_string())) return made(name, source->text);
+            if (const EmbeddedFile* source = find_source(name.generic_string())) return made(name, source->text);
         }
         return failed("no such source");
     }
@@ -105,7 +105,7 @@ std::vector<uint32_t> compile(const std::string& stage, const Layout& layout) {
     static const Process process;
 
     const std::string name = stage + ".comp";
-    const SourceEntry* source = find_source(name);
+    const EmbeddedFile* source = find_source(name);
     if (source == nullptr) throw Error(ErrorKind::internal, "no such stage", stage, "report this as a bug");
     const char* text = source->text.data();
     const int length = static_cast<int>(source->text.size());

@@ -45,6 +45,7 @@ public:
     std::vector<Band> bands(uint64_t bytes) const override { return ranges_.bands(bytes); }
     void fill(const Band& band) override { ranges_.fill(band); }
     uint32_t range_base() const override { return ranges_.range_base(); }
+    std::vector<uint32_t> texel_ranges(const std::vector<Band>& bands) override { return ranges_.texel_ranges(bands); }
     std::map<std::string, uint64_t> counts() const override {
         std::map<std::string, uint64_t> counts = ranges_.counts();
         if (coverage_.coverage) {

@@ -128,22 +128,45 @@ void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, cons
     }
 }
 
+// Seconds of each stage that went into the lights' maps.
+class MapClock {
+public:
+    explicit MapClock(const gpu::Device& device) : device_(device) {}
+
+    template <class Work>
+    void time(Work work) {
+        for (const gpu::StageTime& t : device_.stage_times()) seconds_[t.name] -= t.seconds;
+        work();
+        for (const gpu::StageTime& t : device_.stage_times()) seconds_[t.name] += t.seconds;
+    }
+
+    double seconds(const std::string& stage) const {
+        const auto found = seconds_.find(stage);
+        return found == seconds_.end() ? 0.0 : found->second;
+    }
+
+private:
+    const gpu::Device& device_;
+    std::map<std::string, double> seconds_;
+};
+
 // Against each band of the light's map that the batch's samples fall into.
-void test_shadows(Sampler& sampler, LightSide& side, const Batch& batch, uint32_t spp, float tolerance) {
+void test_shadows(Sampler& sampler, LightSide& side, const Batch& batch, uint32_t spp, float tolerance, MapClock& clock) {
     const double open = static_cast<double>(batch.stratum_first) / spp;
     const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / spp;
     for (size_t i = 0; i < side.bands.size(); ++i) {
         const Band& band = side.bands[i];
         if (band.t_close <= open || band.t_open >= close) continue;
-        if (side.filled != i) side.map->fill(band);
+        if (side.filled != i) clock.time([&] { side.map->fill(band); });
         side.filled = i;
         sampler.test_shadows(side, band, tolerance);
     }
 }
 
-FrameStats statistics(const gpu::Device& device) {
+FrameStats statistics(const gpu::Device& device, const MapClock& clock) {
     FrameStats stats;
-    for (const gpu::StageTime& t : device.stage_times()) stats.stages.push_back({t.name, t.seconds, t.dispatches});
+    for (const gpu::StageTime& t : device.stage_times())
+        stats.stages.push_back({t.name, t.seconds, t.dispatches, clock.seconds(t.name)});
     stats.buffer_bytes = device.largest_bytes();
     stats.peak_bytes = device.peak_bytes();
     stats.device = device.description().name;
@@ -171,8 +194,9 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     const Layout layout =
         with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
     if (method.has_s_buffer() && !layout.folder.empty()) {
-        for (const std::string& stage : {"raster/" + raster, method.shadow_stage})
-            programs.add(layout.stage(stage), compile_stage(stage, layout));
+        std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
+        if (settings.keep_texel_ranges) stages.emplace_back("raster/texel_ranges");
+        for (const std::string& stage : stages) programs.add(layout.stage(stage), compile_stage(stage, layout));
     }
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;
@@ -204,6 +228,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         side.view = light_view(scene.lights[i], poses, i, bounds, settings.shadow_res);
         sides.push_back(std::move(side));
     }
+    MapClock map_clock(device);
     std::vector<LightContext> contexts;
     for (const LightSide& side : sides) {
         contexts.push_back({device, programs, geometry, settings, method, side.view, bounds, side.light_ix, is_still(poses),
@@ -211,9 +236,11 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     }
     for (size_t i = 0; i < sides.size(); ++i) {
         LightSide& side = sides[i];
-        side.bins = bin_prisms(device, programs, geometry, side.view, method.light_cells(contexts[i]),
-                               raster == "prism" ? Listing::bounds : Listing::swept);
-        side.map = method.make_map(contexts[i], side.bins);
+        map_clock.time([&] {
+            side.bins = bin_prisms(device, programs, geometry, side.view, method.light_cells(contexts[i]),
+                                   raster == "prism" ? Listing::bounds : Listing::swept);
+            side.map = method.make_map(contexts[i], side.bins);
+        });
         const std::string light = std::to_string(side.light_ix);
         frame.stats.counts["bin_entries." + light] = side.bins.entry_count;
         for (const auto& [name, count] : side.map->counts()) frame.stats.counts[name + "." + light] = count;
@@ -245,15 +272,19 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     for (size_t b = 0; b < batches.size(); ++b) {
         if (progress && !progress(static_cast<double>(b) / static_cast<double>(batches.size()))) break;
         sampler.trace(batches[b]);
-        for (LightSide& side : sides) test_shadows(sampler, side, batches[b], settings.spp, least_tolerance(bounds));
+        for (LightSide& side : sides) test_shadows(sampler, side, batches[b], settings.spp, least_tolerance(bounds), map_clock);
         sampler.shade(lights, !lights_still(poses));
         if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);
     }
     resolve(frame, sampler.film(), settings.spp, method.fractional);
     if (progress) progress(1.0);
+    if (settings.keep_texel_ranges) {
+        frame.texel_ranges.resize(frame.light_count);
+        for (LightSide& side : sides) frame.texel_ranges[side.light_ix] = side.map->texel_ranges(side.bands);
+    }
 
     std::map<std::string, uint64_t> counts = std::move(frame.stats.counts);
-    frame.stats = statistics(device);
+    frame.stats = statistics(device, map_clock);
     frame.stats.counts = std::move(counts);
     frame.stats.counts["triangles"] = geometry.triangle_count;
     frame.stats.counts["prisms"] = uint64_t(geometry.triangle_count) * geometry.segment_count;

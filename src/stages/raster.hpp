@@ -28,6 +28,7 @@ public:
     void fill(const Band& band) override;
     std::vector<gpu::Binding> read_bindings() const override;
     uint32_t range_base() const override { return range_base_; }
+    std::vector<uint32_t> texel_ranges(const std::vector<Band>& bands) override;
 
 private:
     struct Memory {
@@ -39,6 +40,7 @@ private:
     void prepare(gpu::Recorder& recorder, uint32_t item);
     size_t portion_of(uint32_t item) const;
     void record_pass(gpu::Recorder& recorder, bool fill, const Band& part);
+    void add_texel_ranges(const Band& band, const gpu::Buffer& counts);
     std::vector<Band> parts(const Band& band) const;  ///< That one binding can hold, each of one portion.
     uint64_t bytes_per_range() const;
 

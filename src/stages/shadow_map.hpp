@@ -49,6 +49,9 @@ public:
     /// Fill a band; the one before is forgotten.
     virtual void fill(const Band& band) = 0;
 
+    /// How many ranges each texel has in the whole shutter, rows from the top; empty for maps without ranges. Fills all bands.
+    virtual std::vector<uint32_t> texel_ranges(const std::vector<Band>& /*bands*/) { return {}; }
+
     /// What the test reads, the number of the first element in memory, and specialization constants of its own: constant_id 6,
     /// 7, ... (common/shadow_test.glsl).
     virtual std::vector<gpu::Binding> read_bindings() const = 0;

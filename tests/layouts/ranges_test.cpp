@@ -145,6 +145,34 @@ TEST_F(RangesTest, ContainTheOraclesAndAreTheSameInEveryLayout) {
     }
 }
 
+/// Of each texel, the lengths of its lists.
+std::vector<uint32_t> texel_ranges(const shared::ViewGrid& grid, const Lists& lists) {
+    std::vector<uint32_t> sums(size_t(grid.width) * grid.height);
+    for (size_t i = 0; i < lists.size(); ++i) {
+        const glm::uvec2 texel = place_of(grid, i).texel;
+        if (texel.x < grid.width && texel.y < grid.height)
+            sums[size_t(texel.y) * grid.width + texel.x] += static_cast<uint32_t>(lists[i].size());
+    }
+    return sums;
+}
+
+TEST_F(RangesTest, TexelRangesAreTheSumsOfTheirLists) {
+    std::mt19937 random(35);
+    Soup soup(3, 163, 90, false);
+    soup.add_prisms(150, random);
+    const LightSoup light = prepare(std::move(soup), 6);
+    for (const std::string& layout : layout_names()) {
+        SCOPED_TRACE(layout);
+        SBuffer s_buffer = s_buffer_of(light, layout);
+        const std::vector<uint32_t> expected = texel_ranges(light.bins.grid, whole(s_buffer, layout));
+        EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 2u);
+        EXPECT_EQ(s_buffer.texel_ranges(s_buffer.bands(kEverything)), expected);
+        const std::vector<Band> bands = s_buffer.bands(s_buffer.range_count() * 24 / 3);
+        EXPECT_GT(bands.size(), 1u);
+        EXPECT_EQ(s_buffer.texel_ranges(bands), expected) << bands.size() << " bands";
+    }
+}
+
 TEST_F(RangesTest, BandsTogetherAreTheWhole) {
     std::mt19937 random(32);
     Soup soup(1, 160, 100, true);
@@ -198,6 +226,7 @@ TEST_F(RangesTest, LongLists) {
         SBuffer s_buffer = s_buffer_of(light, layout);
         const Lists lists = whole(s_buffer, layout);
         EXPECT_EQ(total(lists), s_buffer.range_count());
+        EXPECT_EQ(s_buffer.texel_ranges(s_buffer.bands(kEverything)), texel_ranges(light.bins.grid, lists));
         if (!find_layout(layout).lossless) continue;
         if (first.empty()) {
             first = lists;

@@ -2,6 +2,7 @@
 // raster/analytic at texel centres: a triangle has a range at just those times at which the oracle sees it there, and the
 // depths at its ends are the oracle's.
 #include <algorithm>
+#include <numeric>
 #include <unordered_map>
 
 #include "lists.hpp"
@@ -25,7 +26,10 @@ protected:
         const std::vector<Band> bands = s_buffer.bands(1ull << 40);
         EXPECT_EQ(bands.size(), 1u);
         s_buffer.fill(bands[0]);
-        return read_exit_ranges(device(), s_buffer);
+        Lists lists = read_exit_ranges(device(), s_buffer);
+        const std::vector<uint32_t> per_texel = s_buffer.texel_ranges(bands);
+        EXPECT_EQ(std::accumulate(per_texel.begin(), per_texel.end(), uint64_t{0}), s_buffer.range_count());
+        return lists;
     }
 };
 

@@ -2,8 +2,6 @@
 // The scenes of the benchmark, made on the spot.
 #include "bench/bench_scenes.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -37,15 +35,6 @@ const std::vector<Entry>& entries() {
     return all;
 }
 
-// A file that goes when it is no longer needed.
-struct TemporaryFile {
-    fs::path path;
-    ~TemporaryFile() {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-    }
-};
-
 }  // namespace
 
 std::vector<std::string> scene_names() {
@@ -62,12 +51,7 @@ PosedScene make_scene(const std::string& name, double scale) {
         throw Error(ErrorKind::usage, "there is no scene '" + name + "'", "--scenes", "use some of " + known);
     }
     const double count = std::max<double>(entry->least, std::round(entry->count * scale * scale));
-    const TemporaryFile file{fs::temp_directory_path() / ("frame_bench." + std::to_string(getpid()) + "." + name + ".glb")};
-    entry->make(file.path, static_cast<uint32_t>(count));
-
-    PosedScene posed{load_scene(file.path), {}};
-    posed.poses = pose_scene(posed.scene, choose_animation(posed.scene, "0"), 0.0, makers::kShutterSeconds, 1);
-    return posed;
+    return makers::make_posed([&](const fs::path& path) { entry->make(path, static_cast<uint32_t>(count)); });
 }
 
 }  // namespace gnomon::bench

@@ -2,16 +2,14 @@
 // The scenes of the benchmark, made on the spot.
 #pragma once
 
-#include <gnomon/scene.hpp>
 #include <string>
 #include <vector>
 
+#include "scenes/posed_scene.hpp"
+
 namespace gnomon::bench {
 
-struct PosedScene {
-    Scene scene;
-    std::vector<Pose> poses;  ///< Shutter open and close.
-};
+using makers::PosedScene;
 
 /// In the order of the tables.
 std::vector<std::string> scene_names();

@@ -33,6 +33,14 @@ void start_log() {
     spdlog::set_pattern("gnomon: %^%l%$: %v");
 }
 
+void log_device(const DeviceDescription& device, bool was_named) {
+    if (device.type == "cpu" && !was_named) {
+        spdlog::warn("no hardware device: rendering on the CPU, with {}", device.name);
+    } else {
+        spdlog::debug("device: {} ({}), {}", device.name, device.type, device.driver);
+    }
+}
+
 void write_json(const std::string& target, const io::Json& json, int indent) {
     const std::string text = io::to_text(json, indent) + "\n";
     if (target == "-") {

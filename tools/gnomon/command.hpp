@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <gnomon/render.hpp>
 #include <string>
 
 #include "io/report.hpp"
@@ -32,9 +33,13 @@ void add_devices(CLI::App& app, Invocation& invocation);
 void add_methods(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_ranges(CLI::App& app, Invocation& invocation);
+void add_reproduce(CLI::App& app, Invocation& invocation);  ///< Only where the reference is built (GNOMON_HAS_REFERENCE).
 
 /// Messages go to stderr as `gnomon: LEVEL: TEXT`, in colour on a terminal unless NO_COLOR is set.
 void start_log();
+
+/// Say which device renders, and warn where it is a CPU that was not asked for.
+void log_device(const DeviceDescription& device, bool was_named);
 
 /// Write a document to a file, or, for "-", to stdout; indent -1: on one line.
 void write_json(const std::string& target, const io::Json& json, int indent = 2);

@@ -28,6 +28,9 @@ int run(int argc, char** argv) {
     gnomon::cli::add_methods(app, invocation);
     gnomon::cli::add_compare(app, invocation);
     gnomon::cli::add_ranges(app, invocation);
+#ifdef GNOMON_HAS_REFERENCE
+    gnomon::cli::add_reproduce(app, invocation);
+#endif
 
     try {
         app.parse(argc, argv);

@@ -2,14 +2,13 @@
 // `gnomon render`: a frame, or a sequence of frames, from a scene.
 #include <spdlog/spdlog.h>
 
-#include <atomic>
-#include <csignal>
 #include <gnomon/error.hpp>
 #include <gnomon/render.hpp>
 #include <memory>
 
 #include "additions.hpp"
 #include "command.hpp"
+#include "interrupt.hpp"
 #include "io/atomic_file.hpp"
 #include "io/exr.hpp"
 #include "io/png.hpp"
@@ -21,18 +20,6 @@ namespace gnomon::cli {
 
 namespace {
 
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "written by a signal handler");
-
-/// The first SIGINT or SIGTERM asks the frame to stop; the second one ends the process.
-void catch_interrupts() {
-    struct sigaction action {};
-    action.sa_handler = [](int) { interrupted = true; };
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
-}
-
 void check_outputs(const std::vector<FrameJob>& frames) {
     for (const FrameJob& frame : frames) {
         io::check_writable(frame.exr);
@@ -43,14 +30,6 @@ void check_outputs(const std::vector<FrameJob>& frames) {
 
 void log_warnings(const std::vector<std::string>& warnings, size_t first) {
     for (size_t i = first; i < warnings.size(); ++i) spdlog::warn("{}", warnings[i]);
-}
-
-void log_device(const DeviceDescription& device, bool was_named) {
-    if (device.type == "cpu" && !was_named) {
-        spdlog::warn("no hardware device: rendering on the CPU, with {}", device.name);
-    } else {
-        spdlog::debug("device: {} ({}), {}", device.name, device.type, device.driver);
-    }
 }
 
 void log_statistics(const FrameStats& stats) {
@@ -108,10 +87,10 @@ int render(const RenderOptions& options, bool quiet) {
 
         const Frame frame = renderer.render(drawn, poses, settings, [&](double share) {
             bar.update((static_cast<double>(i) + share) / frame_count);
-            return !interrupted;
+            return !interrupted();
         });
         bar.erase();
-        if (interrupted) {
+        if (interrupted()) {
             spdlog::error("interrupted, before {} was written; run it again", job.exr.string());
             return kInterrupted;
         }

@@ -33,13 +33,14 @@ void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptio
     require_range("size", options.size, 1e-3, 1e3);
     require_range("speed_max", options.speed_max, 0.0, 1e4);
     require_range("speed_min", options.speed_min, 0.0, options.speed_max);
+    require_range("height", options.height, 0.0, 1e4);
 
     // A cube's mean silhouette is 1.5 size^2 and its mean width about 1.3 size; of its path pi / 4 is seen on average. Cubes
     // with three times the picture's area together cover about 1 - exp(-3) of it where they lie at random, less toward its
     // edges.
     const double mean_speed = (options.speed_min + options.speed_max) / 2.0;
     const double swept = options.size * (1.5 * options.size + 1.3 * kPi / 4.0 * mean_speed);
-    const double height = std::sqrt(options.count * swept / 3.0 * 3.0 / 4.0);
+    const double height = options.height > 0.0 ? options.height : std::sqrt(options.count * swept / 3.0 * 3.0 / 4.0);
     const Vec3 half{height * 2.0 / 3.0, height / 2.0, height / 2.0};
 
     GltfWriter writer("random-cubes");

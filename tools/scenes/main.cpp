@@ -32,6 +32,7 @@ make_scenes all -o FOLDER              writes the scenes of the scenes folder
   chess          --triangles N (160000)  --moving PIECES (9)  --seed S (0)  --fill-light yes|no (no)
   two-cubes      --triangles N of each cube (6000)
   random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
+                 --height METRES of their space (0: by number, size and speed)
   pillars        --columns N (7)  --rising yes|no (no)
   crossing-quads
   receding-quads
@@ -144,6 +145,7 @@ void run(const std::string& scene, Options options) {
         options.take("--count", o.count);
         options.take("--seed", o.seed);
         options.take("--size", o.size);
+        options.take("--height", o.height);
         if (const std::string speed = options.take_text("--speed"); !speed.empty()) {
             const std::size_t colon = speed.find(':');
             if (colon == std::string::npos) throw Error(ErrorKind::usage, "not MIN:MAX: '" + speed + "'", "--speed", "");

@@ -75,14 +75,16 @@ struct TwoCubesOptions {
 };
 void make_two_cubes(const std::filesystem::path& path, const TwoCubesOptions& options = {});
 
-/// Cubes that move and turn in random directions, all in one skinned mesh with a joint per cube. The space that they fill grows
-/// with their number, size and speed, so that they cover about the same share of the picture.
+/// Cubes that move and turn in random directions, all in one skinned mesh with a joint per cube.
 struct RandomCubesOptions {
     uint32_t count = 2000;  ///< 1 to 65,535.
     uint32_t seed = 0;
     double size = 1.0;       ///< Side, > 0.
     double speed_min = 4.0;  ///< Metres in a shutter, 0 <= speed_min <= speed_max.
     double speed_max = 8.0;
+    /// Metres, of the space that they fill and the picture shows, 0 to 10,000; 0: it grows with their number, size and speed, so
+    /// that they cover about the same share of the picture.
+    double height = 0.0;
 };
 void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptions& options = {});
 

@@ -15,7 +15,7 @@ TEST(Report, RenderDocument) {
     Frame frame;
     frame.effective = {{"raster", "conservative"}};
     FrameStats& stats = frame.stats;
-    stats.stages = {{"setup", 0.5, 2}, {"bin", 0.25, 1}};
+    stats.stages = {{"setup", 0.5, 2, 0.125}, {"bin", 0.25, 1}};
     stats.buffer_bytes = {{"prisms", 4096}};
     stats.peak_bytes = 1ull << 40;
     stats.counts = {{"ranges", 123}};
@@ -25,7 +25,8 @@ TEST(Report, RenderDocument) {
     EXPECT_EQ(json, Json::parse(R"({
         "schema": "gnomon.render", "schema_version": 1, "version": ")" GNOMON_VERSION R"(", "device": "llvmpipe",
         "settings": {"spp": 16}, "effective": {"raster": "conservative"},
-        "stages": [{"name": "setup", "seconds": 0.5, "dispatches": 2}, {"name": "bin", "seconds": 0.25, "dispatches": 1}],
+        "stages": [{"name": "setup", "seconds": 0.5, "map_seconds": 0.125, "dispatches": 2},
+                   {"name": "bin", "seconds": 0.25, "map_seconds": 0.0, "dispatches": 1}],
         "buffers": {"prisms": 4096}, "peak_bytes": 1099511627776, "counts": {"ranges": 123}, "wall_seconds": 1.5,
         "outputs": ["a.exr", "a.png"], "warnings": ["no camera"]})"));
 }

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Verdicts follow from what was measured, on numbers worked out by hand.
+#include "reproduce/claim.hpp"
+
+#include <gmock/gmock.h>
+
+#include <gnomon/error.hpp>
+
+namespace gnomon::reproduce {
+namespace {
+
+using enum Comparison::Sign;
+using enum Comparison::Where;
+using testing::ElementsAre;
+
+// Two scenes at 4 and 8 samples; runs "old" and "new", the latter proposed. seconds[setting][run].
+class Claims : public testing::Test {
+protected:
+    std::vector<ClaimResult> check(std::vector<Comparison> comparisons) {
+        auto experiment = std::make_shared<Experiment>();
+        experiment->runs = {{.method = "old"}, {.method = "new", .proposed = true}};
+        experiment->axis = "samples";
+        ExperimentResult result;
+        for (const auto& at : seconds) {
+            const size_t i = experiment->settings.size();
+            experiment->settings.push_back({.scene = i < 2 ? "a" : "b", .make = {}, .x = i % 2 == 0 ? 4.0 : 8.0});
+            SettingResult& setting = result.settings.emplace_back();
+            for (const Estimate& value : at) setting.runs.emplace_back().metrics[Metric::seconds] = value;
+        }
+        const Figure figure{.name = "0000-1",
+                            .title = "",
+                            .shows = "",
+                            .experiment = experiment,
+                            .claims = {{.quote = "It is so.", .source = "", .comparisons = std::move(comparisons)}}};
+        return check_claims(figure, result);
+    }
+
+    std::vector<Verdict> verdicts(const std::vector<ClaimResult>& results) {
+        std::vector<Verdict> list;
+        for (const Check& check : results.at(0).checks) list.push_back(check.verdict);
+        return list;
+    }
+
+    std::vector<std::vector<Estimate>> seconds = {
+        {{1.0, 0.01}, {0.5, 0.01}}, {{2.0, 0.01}, {0.6, 0.01}}, {{1.0, 0.01}, {0.97, 0.01}}, {{1.0, 0.01}, {1.5, 0.01}}};
+    const Term old_seconds{Metric::seconds, "old"}, new_seconds{Metric::seconds};
+};
+
+TEST_F(Claims, EachSettingIsChecked) {
+    const auto results = check({{.left = new_seconds, .sign = less, .right = old_seconds}});
+    ASSERT_EQ(results.size(), 1u);
+    EXPECT_EQ(results[0].run, "new");
+    // 1.00 and 0.97 are 0.03 apart, two standard errors are 2 sqrt(2) 0.01 = 0.0283; 1.5 is more than 1.
+    EXPECT_THAT(verdicts(results), ElementsAre(Verdict::holds, Verdict::holds, Verdict::holds, Verdict::does_not_hold));
+    EXPECT_EQ(results[0].verdict, Verdict::does_not_hold);
+    EXPECT_EQ(results[0].checks[0].scene, "a, 4 samples");
+    EXPECT_EQ(results[0].checks[0].statement, "frame of new < frame of old");
+    EXPECT_EQ(results[0].checks[0].measured, "500 ± 10 ms < 1000 ± 10 ms");
+}
+
+TEST_F(Claims, CloseFiguresAreUndecided) {
+    seconds[2][1].value = 0.98;
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .right = old_seconds}}))[2], Verdict::undecided);
+    // On either side.
+    seconds[2][1].value = 1.02;
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .right = old_seconds}}))[2], Verdict::undecided);
+    seconds[2][1].value = 1.04;
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .right = old_seconds}}))[2], Verdict::does_not_hold);
+}
+
+TEST_F(Claims, OneUndecidedCheckLeavesTheClaimUndecided) {
+    seconds[3] = {{1.0, 0.01}, {1.001, 0.01}};
+    EXPECT_EQ(check({{.left = new_seconds, .right = old_seconds}})[0].verdict, Verdict::undecided);
+}
+
+TEST_F(Claims, EqualExactFiguresAreNotLess) {
+    seconds = {{{1.0, 0.0}, {1.0, 0.0}}};
+    EXPECT_EQ(check({{.left = new_seconds, .right = old_seconds}})[0].verdict, Verdict::does_not_hold);
+    EXPECT_EQ(check({{.left = new_seconds, .sign = greater, .right = old_seconds}})[0].verdict, Verdict::does_not_hold);
+}
+
+TEST_F(Claims, NumbersAndFactors) {
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .number = 0.55}}))[0], Verdict::holds);
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .sign = greater, .number = 0.55}}))[0], Verdict::does_not_hold);
+    Term half = old_seconds;
+    half.factor = 0.4;
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .right = half}}))[0], Verdict::does_not_hold);
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .right = half}}))[1], Verdict::holds);
+}
+
+TEST_F(Claims, TrendsAreOfEachScene) {
+    const auto results = check({{.left = old_seconds, .sign = greater, .right = old_seconds, .where = last_to_first}});
+    EXPECT_EQ(results[0].run, "");  // It names its run.
+    EXPECT_THAT(verdicts(results), ElementsAre(Verdict::holds, Verdict::undecided));
+    EXPECT_EQ(results[0].checks[0].statement, "frame of old at 8 samples > frame of old at 4 samples");
+}
+
+TEST_F(Claims, RatiosOfRuns) {
+    Term ratio = old_seconds;
+    ratio.over_run = kProposed;
+    // 2.0 / 0.6 = 3.33 against 1.0 / 0.5 = 2; 1 / 1.5 against 1 / 0.97.
+    EXPECT_THAT(verdicts(check({{.left = ratio, .sign = greater, .right = ratio, .where = last_to_first}})),
+                ElementsAre(Verdict::holds, Verdict::does_not_hold));
+}
+
+TEST_F(Claims, AboutWhatIsNotMeasuredIsABug) {
+    EXPECT_THROW(check({{.left = {Metric::flip}, .number = 1.0}}), Error);
+    EXPECT_THROW(check({{.left = {Metric::seconds, "other"}, .number = 1.0}}), Error);
+}
+
+}  // namespace
+}  // namespace gnomon::reproduce

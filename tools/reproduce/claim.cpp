@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether what a paper says holds for what was measured.
+#include "reproduce/claim.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cmath>
+#include <gnomon/error.hpp>
+
+namespace gnomon::reproduce {
+namespace {
+
+// Two sides closer than this many standard errors of their difference are not told apart.
+constexpr double kLeastDeviations = 2.0;
+
+// One side of a comparison: its figure, and how both are written.
+struct Side {
+    Estimate estimate;
+    std::string name;
+    std::string value;
+};
+
+class Checker {
+public:
+    Checker(const Figure& figure, const ExperimentResult& result, std::string proposed)
+        : figure_(figure), experiment_(*figure.experiment), result_(result), proposed_(std::move(proposed)) {}
+
+    std::vector<Check> checks(const Comparison& comparison) const {
+        std::vector<Check> checks;
+        const size_t count = experiment_.settings.size();
+        for (size_t i = 0; i < count; ++i) {
+            const std::string& scene = experiment_.settings[i].scene;
+            if (comparison.where == Comparison::Where::each) {
+                checks.push_back(check(comparison, i, i, false));
+            } else if (i + 1 == count || experiment_.settings[i + 1].scene != scene) {
+                size_t first = i;
+                while (first > 0 && experiment_.settings[first - 1].scene == scene) --first;
+                checks.push_back(check(comparison, i, first, true));
+            }
+        }
+        return checks;
+    }
+
+private:
+    Check check(const Comparison& comparison, size_t left_ix, size_t right_ix, bool name_places) const {
+        const Side left = side(comparison.left, left_ix, name_places);
+        const Metric metric = comparison.left.metric;
+        const Side right = comparison.right ? side(*comparison.right, right_ix, name_places)
+                                            : Side{{comparison.number, 0.0},
+                                                   shown_with_unit(metric, {comparison.number, 0.0}),
+                                                   shown_with_unit(metric, {comparison.number, 0.0})};
+        const bool less = comparison.sign == Comparison::Sign::less;
+        const std::string sign = less ? " < " : " > ";
+        const double lead = (right.estimate.value - left.estimate.value) * (less ? 1.0 : -1.0);
+        const double error = std::hypot(left.estimate.standard_error, right.estimate.standard_error);
+        Check result{experiment_.settings[left_ix].scene, left.name + sign + right.name, left.value + sign + right.value, {}};
+        if (!name_places && !experiment_.axis.empty()) result.scene += ", " + place(left_ix);
+        result.verdict = std::abs(lead) <= kLeastDeviations * error ? Verdict::undecided
+                         : lead > 0.0                               ? Verdict::holds
+                                                                    : Verdict::does_not_hold;
+        // Equal and exact: neither is less.
+        if (lead == 0.0 && error == 0.0) result.verdict = Verdict::does_not_hold;
+        return result;
+    }
+
+    Side side(const Term& term, size_t setting_ix, bool name_place) const {
+        Estimate value = measured(term.metric, term.run, setting_ix);
+        std::string name = info(term.metric).title + " of " + label(term.run);
+        std::string suffix;
+        if (!term.over_run.empty()) {
+            const Estimate under = measured(term.metric, term.over_run, setting_ix);
+            const double ratio = value.value / under.value;
+            value = {ratio,
+                     std::abs(ratio) * std::hypot(value.standard_error / value.value, under.standard_error / under.value)};
+            name += " / that of " + label(term.over_run);
+        }
+        value = {value.value * term.factor, value.standard_error * term.factor};
+        if (term.factor != 1.0) name = fmt::format("{} × {}", term.factor, name);
+        if (name_place) name += " at " + place(setting_ix);
+        const std::string text = !term.over_run.empty() ? shown(value) : shown_with_unit(term.metric, value);
+        return {value, name, text};
+    }
+
+    std::string place(size_t setting_ix) const {
+        return fmt::format("{} {}", experiment_.settings[setting_ix].x, experiment_.axis);
+    }
+
+    const std::string& label(const std::string& run) const { return run == kProposed ? proposed_ : run; }
+
+    Estimate measured(Metric metric, const std::string& run, size_t setting_ix) const {
+        for (size_t i = 0; i < experiment_.runs.size(); ++i) {
+            if (experiment_.runs[i].label != label(run)) continue;
+            const auto& metrics = result_.settings[setting_ix].runs[i].metrics;
+            if (const auto found = metrics.find(metric); found != metrics.end()) return found->second;
+        }
+        throw Error(ErrorKind::internal, "a claim about what is not measured: " + info(metric).title + " of " + label(run),
+                    "figure " + figure_.name, "please report it");
+    }
+
+    const Figure& figure_;
+    const Experiment& experiment_;
+    const ExperimentResult& result_;
+    std::string proposed_;
+};
+
+bool names_proposed(const Claim& claim) {
+    return std::any_of(claim.comparisons.begin(), claim.comparisons.end(), [](const Comparison& c) {
+        return c.left.run == kProposed || c.left.over_run == kProposed ||
+               (c.right && (c.right->run == kProposed || c.right->over_run == kProposed));
+    });
+}
+
+Verdict all_of(const std::vector<Check>& checks) {
+    const auto any = [&](Verdict verdict) {
+        return std::any_of(checks.begin(), checks.end(), [&](const Check& check) { return check.verdict == verdict; });
+    };
+    return any(Verdict::does_not_hold) ? Verdict::does_not_hold : any(Verdict::undecided) ? Verdict::undecided : Verdict::holds;
+}
+
+}  // namespace
+
+std::string to_text(Verdict verdict) {
+    switch (verdict) {
+        case Verdict::holds:
+            return "holds";
+        case Verdict::does_not_hold:
+            return "does not hold";
+        case Verdict::undecided:
+            break;
+    }
+    return "undecided";
+}
+
+std::vector<ClaimResult> check_claims(const Figure& figure, const ExperimentResult& result) {
+    std::vector<ClaimResult> results;
+    for (const Claim& claim : figure.claims) {
+        std::vector<std::string> runs;
+        if (names_proposed(claim)) {
+            for (const Run& run : figure.experiment->runs)
+                if (run.proposed) runs.push_back(run.label);
+        } else {
+            runs.emplace_back();
+        }
+        for (const std::string& run : runs) {
+            ClaimResult checked{claim.quote, claim.source, run, {}, {}};
+            const Checker checker(figure, result, run);
+            for (const Comparison& comparison : claim.comparisons) {
+                const std::vector<Check> checks = checker.checks(comparison);
+                checked.checks.insert(checked.checks.end(), checks.begin(), checks.end());
+            }
+            checked.verdict = all_of(checked.checks);
+            results.push_back(std::move(checked));
+        }
+    }
+    return results;
+}
+
+}  // namespace gnomon::reproduce

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// HTML and SVG as text.
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gnomon::reproduce {
+
+struct Attribute {
+    std::string_view name;
+    std::string value;
+};
+
+/// Text for content and attributes.
+std::string escaped(std::string_view text);
+
+/// content: HTML. Attribute values are escaped.
+std::string element(std::string_view tag, std::initializer_list<Attribute> attributes, std::string_view content);
+inline std::string element(std::string_view tag, std::string_view content) { return element(tag, {}, content); }
+
+/// One that has no content and no end: img.
+std::string empty_element(std::string_view tag, std::initializer_list<Attribute> attributes);
+
+/// The first cell of a row is its heading.
+class Table {
+public:
+    /// head: HTML of each column's heading.
+    explicit Table(const std::vector<std::string>& head);
+
+    /// cells: HTML, as many as headings.
+    void add(const std::vector<std::string>& cells);
+
+    std::string html() const;
+
+private:
+    std::string head_, body_;
+};
+
+/// `text` with each {{name}} replaced. Errors: ErrorKind::internal for a name that is not given.
+std::string filled(std::string_view text, const std::vector<std::pair<std::string_view, std::string>>& values);
+
+}  // namespace gnomon::reproduce

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pages of a report have in common.
+#include "reproduce/page.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <cassert>
+#include <gnomon/version.hpp>
+
+#include "page_files.h"
+#include "reproduce/html.hpp"
+
+namespace gnomon::reproduce {
+namespace {
+
+std::string file(std::string_view name) {
+    const auto found =
+        std::find_if(std::begin(kPageFiles), std::end(kPageFiles), [&](const EmbeddedFile& f) { return f.name == name; });
+    assert(found != std::end(kPageFiles));
+    return std::string(found->text);
+}
+
+std::string class_of(Verdict verdict) {
+    std::string name = to_text(verdict);
+    std::replace(name.begin(), name.end(), ' ', '-');
+    return name;
+}
+
+std::string check_item(const Check& check) {
+    const char* marks[] = {"✓", "✗", "?"};
+    const std::string mark = element("span", {{"class", "mark " + class_of(check.verdict)}, {"title", to_text(check.verdict)}},
+                                     marks[static_cast<size_t>(check.verdict)]);
+    return element("li", mark + " " + escaped(check.statement) +
+                             element("span", {{"class", "measured"}}, escaped(check.measured + " (" + check.scene + ")")));
+}
+
+}  // namespace
+
+std::string page(const std::string& title, const std::string& content) {
+    return filled(file("page.html"), {{"generator", "gnomon " GNOMON_VERSION},
+                                      {"title", escaped(title)},
+                                      {"style", file("style.css")},
+                                      {"content", content},
+                                      {"script", file("viewer.js")}});
+}
+
+std::string facts(const std::vector<std::pair<std::string, std::string>>& list) {
+    std::string items;
+    for (const auto& [name, value] : list) items += element("li", escaped(name) + " " + element("b", escaped(value)));
+    return element("ul", {{"class", "facts"}}, items) + "\n";
+}
+
+std::string measured_on(const MeasureOptions& options, const std::string& device) {
+    return facts(
+        {{"device", device},
+         {"scale", options.scale == 1.0 ? "1, full size" : fmt::format("{:g} of the sides of full size", options.scale)},
+         {"seeds per run", std::to_string(options.repeat)},
+         {"reference", fmt::format("Embree, {} samples per pixel", options.reference_spp)},
+         {"gnomon", GNOMON_VERSION}});
+}
+
+std::string verdict_html(Verdict verdict) {
+    return element("span", {{"class", "verdict " + class_of(verdict)}}, to_text(verdict));
+}
+
+std::string claims_table(const std::vector<ClaimResult>& claims) {
+    Table table({"The paper says", "checked for", "verdict", "measured here"});
+    for (const ClaimResult& claim : claims) {
+        std::string checks;
+        for (const Check& check : claim.checks) checks += check_item(check);
+        table.add({element("blockquote", "“" + escaped(claim.quote) + "”") + element("cite", escaped(claim.source)),
+                   escaped(claim.run.empty() ? "–" : claim.run), verdict_html(claim.verdict),
+                   element("ul", {{"class", "checks"}}, checks)});
+    }
+    return element("div", {{"class", "wide"}}, table.html());
+}
+
+}  // namespace gnomon::reproduce
