@@ -26,7 +26,7 @@ const std::vector<Run> kCubeRuns = {
 
 Setting character(const std::string& name, uint32_t triangles, uint32_t spp) {
     return {.scene = name,
-            .make = [=](const Path& path) { makers::make_figure(path, {.triangles = triangles, .fill_light = false}); },
+            .make = [=](const Path& path) { makers::make_character(path, {.triangles = triangles}); },
             .spp = spp,
             .x = static_cast<double>(spp)};
 }
@@ -34,13 +34,27 @@ Setting character(const std::string& name, uint32_t triangles, uint32_t spp) {
 Setting of_figure_5(uint32_t spp) { return character("character, 268,000 triangles", 268000, spp); }
 Setting of_figure_6(uint32_t spp) { return character("character, 70,000 triangles", 70000, spp); }
 
-// All in one space, that of 5,000 cubes that fill the picture: more cubes are more in each texel.
-Setting cubes(const std::string& scene, uint32_t count, double speed_min, double speed_max, double x) {
-    return {.scene = scene,
+// The paper does not say how large its cubes are: small ones move on by several times their side, large ones by less than one.
+// All of a size are in one space, that which 5,000 of them fill at speeds in [4, 8]: more cubes are more in each texel.
+struct CubeSize {
+    std::string name;
+    double side;    // Metres; speeds are metres in a shutter.
+    double height;  // Of the space.
+};
+
+const CubeSize kSmallCubes{"cubes of side 1", 1.0, 98.0};
+const CubeSize kLargeCubes{"cubes of side 10", 10.0, 513.0};
+
+Setting cubes(const CubeSize& size, uint32_t count, double speed_min, double speed_max, double x) {
+    return {.scene = size.name,
             .make =
                 [=](const Path& path) {
-                    makers::make_random_cubes(path,
-                                              {.count = count, .speed_min = speed_min, .speed_max = speed_max, .height = 98.0});
+                    makers::make_random_cubes(path, {.count = count,
+                                                     .size = size.side,
+                                                     .speed_min = speed_min,
+                                                     .speed_max = speed_max,
+                                                     .height = size.height,
+                                                     .ground = 1.5});
                 },
             .x = x};
 }
@@ -59,16 +73,26 @@ std::shared_ptr<const Experiment> sample_counts() {
 
 std::shared_ptr<const Experiment> cube_counts() {
     Experiment series{.runs = kCubeRuns, .axis = "cubes"};
-    for (const uint32_t count : {1000, 2000, 3000, 4000, 5000})
-        series.settings.push_back(cubes("cubes at speeds 4 to 8", count, 4.0, 8.0, count));
+    for (const CubeSize& size : {kSmallCubes, kLargeCubes})
+        for (const uint32_t count : {1000, 2000, 3000, 4000, 5000})
+            series.settings.push_back(cubes(size, count, 4.0, 8.0, count));
     return std::make_shared<Experiment>(std::move(series));
 }
 
 std::shared_ptr<const Experiment> cube_speeds() {
-    Experiment series{.runs = kCubeRuns, .axis = "mean speed, cube sides per shutter"};
-    for (const double least : {0.0, 4.0, 8.0, 12.0, 16.0})
-        series.settings.push_back(cubes("5,000 cubes", 5000, least, least + 4.0, least + 2.0));
+    Experiment series{.runs = kCubeRuns, .axis = "metres in a shutter"};
+    for (const CubeSize& size : {kSmallCubes, kLargeCubes})
+        for (const double least : {0.0, 4.0, 8.0, 12.0, 16.0})
+            series.settings.push_back(cubes(size, 5000, least, least + 4.0, least + 2.0));
     return std::make_shared<Experiment>(std::move(series));
+}
+
+std::shared_ptr<const Experiment> heat_maps() {
+    return std::make_shared<Experiment>(
+        Experiment{.settings = {cubes(kLargeCubes, 4000, 4.0, 8.0, 0.0), cubes(kSmallCubes, 4000, 4.0, 8.0, 0.0)},
+                   .runs = kCubeRuns,
+                   .texel_ranges = true,
+                   .full_maps = true});
 }
 
 Comparison grows(Metric metric, const std::string& run) {
@@ -87,7 +111,7 @@ Comparison saves(Metric metric, double factor) {
 
 std::vector<Figure> figures_2017() {
     const auto samples = sample_counts(), counts = cube_counts(), speeds = cube_speeds();
-    const std::string stand_in = "A walking figure stands in for the paper's model, 8 samples per pixel.";
+    const std::string stand_in = "A character stands in for the paper's, 8 samples per pixel.";
     const Claim memory_grows{.quote =
                                  "Graphics memory used for the temporal shadow map in our algorithm is varied from low to "
                                  "high when increasing moving speed of cubes, Figs. 9 and 11.",
@@ -135,11 +159,9 @@ std::vector<Figure> figures_2017() {
                      .comparisons = {{.left = {Metric::map_seconds}, .right = Term{Metric::map_seconds, "tsm"}}}}}},
         {.name = "2017-8",
          .title = "Ranges per texel",
-         .shows = "4,000 cubes of random places and speeds in [4, 8].",
-         .experiment = std::make_shared<Experiment>(Experiment{.settings = {cubes("4,000 cubes", 4000, 4.0, 8.0, 0.0)},
-                                                               .runs = kCubeRuns,
-                                                               .texel_ranges = true,
-                                                               .full_maps = true}),
+         .shows = "4,000 cubes of random places and speeds in [4, 8] metres in a shutter. The paper does not say how large its "
+                  "cubes are.",
+         .experiment = heat_maps(),
          .plots = {Metric::ranges, Metric::map_bytes},
          .claims = {{.quote = "Using the coverage map significantly reduces the total number of visible time ranges stored in "
                               "the temporal shadow map.",
@@ -147,7 +169,9 @@ std::vector<Figure> figures_2017() {
                      .comparisons = {saves(Metric::ranges, 0.5)}}}},
         {.name = "2017-9",
          .title = "Memory against the number of cubes",
-         .shows = "Cubes of random places and speeds in [4, 8], all in one space: more cubes are more in each texel.",
+         .shows = "Cubes of random places and speeds in [4, 8] metres in a shutter, all of a size in one space: more cubes are "
+                  "more in "
+                  "each texel. The paper does not say how large its cubes are.",
          .experiment = counts,
          .plots = {Metric::map_bytes, Metric::ranges},
          .claims = {memory_grows, memory_saved}},
@@ -160,7 +184,7 @@ std::vector<Figure> figures_2017() {
          .claims = {time_kept}},
         {.name = "2017-11",
          .title = "Memory against the speed of cubes",
-         .shows = "5,000 cubes. The paper does not give its ranges of speed; here they are 4 wide.",
+         .shows = "5,000 cubes. The paper does not give its ranges of speed; here they are 4 metres in a shutter wide.",
          .experiment = speeds,
          .plots = {Metric::map_bytes, Metric::ranges},
          .claims = {memory_grows, memory_saved}},

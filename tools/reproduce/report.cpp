@@ -203,7 +203,8 @@ std::string to_html(const FigureReport& report) {
                 "p", {{"class", "note"}},
                 "Of the light's view, over the whole shutter. A range that a method cuts where a cell of time ends counts in "
                 "each cell.");
-        for (const SettingResult& setting : result.settings) content += heat_map_viewer(experiment, setting);
+        for (size_t i = 0; i < result.settings.size(); ++i)
+            content += heading(3, place(experiment, i)) + heat_map_viewer(experiment, result.settings[i]);
     }
     if (!figure.plots.empty()) {
         std::string plots;

@@ -7,8 +7,9 @@ namespace gnomon::makers {
 
 void make_two_cubes(const std::filesystem::path& path, const TwoCubesOptions& options) {
     require_range("triangles", options.triangles, 12, 1e6);
+    require_range("ground", options.ground, 1.0, 1e3);
     GltfWriter writer("two-cubes");
-    add_ground(writer, 14.0, 0.0, from_srgb(205, 198, 184));
+    add_ground(writer, 0.5 * options.ground, 0.0, from_srgb(205, 198, 184));
 
     const Vec3 to_light = normalized({-0.35, 1.0, 0.25});
     const Mesh cube = box({0.5, 0.5, 0.5}, box_divisions(options.triangles));
@@ -34,6 +35,7 @@ void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptio
     require_range("speed_max", options.speed_max, 0.0, 1e4);
     require_range("speed_min", options.speed_min, 0.0, options.speed_max);
     require_range("height", options.height, 0.0, 1e4);
+    require_range("ground", options.ground, 0.1, 100.0);
 
     // A cube's mean silhouette is 1.5 size^2 and its mean width about 1.3 size; of its path pi / 4 is seen on average. Cubes
     // with three times the picture's area together cover about 1 - exp(-3) of it where they lie at random, less toward its
@@ -44,7 +46,7 @@ void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptio
     const Vec3 half{height * 2.0 / 3.0, height / 2.0, height / 2.0};
 
     GltfWriter writer("random-cubes");
-    add_ground(writer, 2.0 * height, -0.62 * height, from_srgb(190, 186, 178));
+    add_ground(writer, 0.5 * options.ground * height, -0.62 * height, from_srgb(190, 186, 178));
     static const Rgb kPalette[] = {from_srgb(224, 108, 80), from_srgb(240, 190, 90), from_srgb(86, 148, 176),
                                    from_srgb(120, 170, 120), from_srgb(236, 228, 212)};
 

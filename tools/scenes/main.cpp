@@ -30,9 +30,9 @@ make_scenes all -o FOLDER              writes the scenes of the scenes folder
   tree           --leaves N (12000)  --seed S (0)  --sway RADIANS (0)  --fill-light yes|no (no)
   octopus        --triangles N (200000)  --seed S (0)  --fill-light yes|no (no)
   chess          --triangles N (160000)  --moving PIECES (9)  --seed S (0)  --fill-light yes|no (no)
-  two-cubes      --triangles N of each cube (6000)
+  two-cubes      --triangles N of each cube (6000)  --ground METRES (28)
   random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
-                 --height METRES of their space (0: by number, size and speed)
+                 --height METRES of their space (0: by number, size and speed)  --ground HEIGHTS (4)
   pillars        --columns N (7)  --rising yes|no (no)
   crossing-quads
   receding-quads
@@ -139,6 +139,7 @@ void run(const std::string& scene, Options options) {
     } else if (scene == "two-cubes") {
         makers::TwoCubesOptions o;
         options.take("--triangles", o.triangles);
+        options.take("--ground", o.ground);
         make = [=] { makers::make_two_cubes(output, o); };
     } else if (scene == "random-cubes") {
         makers::RandomCubesOptions o;
@@ -146,6 +147,7 @@ void run(const std::string& scene, Options options) {
         options.take("--seed", o.seed);
         options.take("--size", o.size);
         options.take("--height", o.height);
+        options.take("--ground", o.ground);
         if (const std::string speed = options.take_text("--speed"); !speed.empty()) {
             const std::size_t colon = speed.find(':');
             if (colon == std::string::npos) throw Error(ErrorKind::usage, "not MIN:MAX: '" + speed + "'", "--speed", "");

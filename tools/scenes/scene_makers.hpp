@@ -72,6 +72,7 @@ void make_chess(const std::filesystem::path& path, const ChessOptions& options =
 /// Two instances of a tessellated unit cube fly toward a directional light above them, four fifths of their side in a shutter.
 struct TwoCubesOptions {
     uint32_t triangles = 6000;  ///< Of each cube, to the nearest 12 n^2; 12 to 1,000,000.
+    double ground = 28.0;       ///< Side, 1 to 1,000 metres. The light's view holds it all.
 };
 void make_two_cubes(const std::filesystem::path& path, const TwoCubesOptions& options = {});
 
@@ -85,6 +86,7 @@ struct RandomCubesOptions {
     /// Metres, of the space that they fill and the picture shows, 0 to 10,000; 0: it grows with their number, size and speed, so
     /// that they cover about the same share of the picture.
     double height = 0.0;
+    double ground = 4.0;  ///< Side, in heights of that space, 0.1 to 100. The light's view holds it all.
 };
 void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptions& options = {});
 
