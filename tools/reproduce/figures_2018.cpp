@@ -42,13 +42,14 @@ std::shared_ptr<const Experiment> sample_counts() {
     return std::make_shared<Experiment>(std::move(series));
 }
 
-Claim no_self_shadow(const std::string& caption) {
-    return {
-        .quote = "The images rendered by TSM contain severe self-shadow artifacts, while those rendered by our method do not.",
-        .source = caption,
-        .comparisons = {{.left = {Metric::excess_shadow, "tsm"}, .sign = Comparison::Sign::greater, .number = 0.005},
-                        {.left = {Metric::excess_shadow}, .number = 0.001},
-                        {.left = {Metric::excess_shadow}, .right = Term{Metric::excess_shadow, "tsm", 0.1}}}};
+std::vector<Claim> no_self_shadow(const std::string& caption) {
+    return {{.quote = "The images rendered by TSM contain severe self-shadow artifacts …",
+             .source = caption,
+             .comparisons = {{.left = {Metric::excess_shadow, "tsm"}, .sign = Comparison::Sign::greater, .number = 0.01}}},
+            {.quote = "… while those rendered by our method do not.",
+             .source = caption,
+             .comparisons = {{.left = {Metric::excess_shadow}, .right = Term{Metric::excess_shadow, "tsm", 0.5}},
+                             {.left = {Metric::excess_shadow}, .number = 0.001}}}};
 }
 
 }  // namespace
@@ -65,13 +66,13 @@ std::vector<Figure> figures_2018() {
                   "holds it all.",
          .experiment = quality(two_cubes(8)),
          .plots = {Metric::excess_shadow, Metric::false_shadow, Metric::flip},
-         .claims = {no_self_shadow("caption of Fig. 9")}},
+         .claims = no_self_shadow("caption of Fig. 9")},
         {.name = "2018-10",
          .title = "Quality against tsm, character",
          .shows = "A character of 265,000 triangles, 20 samples per pixel. Its leg moves toward the light.",
          .experiment = quality(character(20)),
          .plots = {Metric::excess_shadow, Metric::false_shadow, Metric::flip},
-         .claims = {no_self_shadow("caption of Fig. 10")}},
+         .claims = no_self_shadow("caption of Fig. 10")},
         {.name = "2018-11",
          .title = "Times per stage against samples",
          .shows = "The scenes of Fig. 9 and 10: the paper's text names one, its caption the other.",
