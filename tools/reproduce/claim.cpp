@@ -8,6 +8,8 @@
 #include <cmath>
 #include <gnomon/error.hpp>
 
+#include "io/error_curve.hpp"
+
 namespace gnomon::reproduce {
 namespace {
 
@@ -19,6 +21,7 @@ struct Side {
     Estimate estimate;
     std::string name;
     std::string value;
+    bool known = true;  // A curve says nothing beyond its ends.
 };
 
 class Checker {
@@ -31,6 +34,7 @@ public:
         const size_t count = experiment_.settings.size();
         for (size_t i = 0; i < count; ++i) {
             const std::string& scene = experiment_.settings[i].scene;
+            if (!comparison.scene.empty() && comparison.scene != scene) continue;
             if (comparison.where == Comparison::Where::each) {
                 checks.push_back(check(comparison, i, i, false));
             } else if (i + 1 == count || experiment_.settings[i + 1].scene != scene) {
@@ -49,7 +53,8 @@ private:
         const Side right = comparison.right ? side(*comparison.right, right_ix, name_places)
                                             : Side{{comparison.number, 0.0},
                                                    shown_with_unit(metric, {comparison.number, 0.0}),
-                                                   shown_with_unit(metric, {comparison.number, 0.0})};
+                                                   shown_with_unit(metric, {comparison.number, 0.0}),
+                                                   true};
         const bool less = comparison.sign == Comparison::Sign::less;
         const std::string sign = less ? " < " : " > ";
         const double lead = (right.estimate.value - left.estimate.value) * (less ? 1.0 : -1.0);
@@ -59,12 +64,38 @@ private:
         result.verdict = std::abs(lead) <= kLeastDeviations * error ? Verdict::undecided
                          : lead > 0.0                               ? Verdict::holds
                                                                     : Verdict::does_not_hold;
+        if (!left.known || !right.known) result.verdict = Verdict::undecided;
         // Equal and exact: neither is less.
-        if (lead == 0.0 && error == 0.0) result.verdict = Verdict::does_not_hold;
+        else if (lead == 0.0 && error == 0.0)
+            result.verdict = Verdict::does_not_hold;
         return result;
     }
 
+    // Where the curve takes as long as a run.
+    Side side_of_curve(const Term& term, size_t setting_ix) const {
+        std::vector<io::CurvePoint> points;
+        for (const Run& run : experiment_.runs) {
+            if (run.curve != term.run) continue;
+            const Estimate error = measured(term.metric, run.label, setting_ix);
+            points.push_back({measured(Metric::seconds, run.label, setting_ix).value, error.value, error.standard_error});
+        }
+        const double seconds = measured(Metric::seconds, term.at_time_of, setting_ix).value;
+        const io::CurveValue at = io::ErrorCurve(std::move(points), term.run).error_after(seconds);
+        const std::string name = info(term.metric).title + " of " + term.run + " after the time of " + label(term.at_time_of);
+        switch (at.where) {
+            case io::CurveValue::Where::before_first:
+                return {{}, name, "(all take longer)", false};
+            case io::CurveValue::Where::after_last:
+                return {{}, name, "(all take less)", false};
+            case io::CurveValue::Where::measured:
+                break;
+        }
+        const Estimate value{at.value, at.standard_error};
+        return {value, name, shown_with_unit(term.metric, value), true};
+    }
+
     Side side(const Term& term, size_t setting_ix, bool name_place) const {
+        if (!term.at_time_of.empty()) return side_of_curve(term, setting_ix);
         Estimate value = measured(term.metric, term.run, setting_ix);
         std::string name = info(term.metric).title + " of " + label(term.run);
         std::string suffix;
@@ -79,7 +110,7 @@ private:
         if (term.factor != 1.0) name = fmt::format("{} × {}", term.factor, name);
         if (name_place) name += " at " + place(setting_ix);
         const std::string text = !term.over_run.empty() ? shown(value) : shown_with_unit(term.metric, value);
-        return {value, name, text};
+        return {value, name, text, true};
     }
 
     std::string place(size_t setting_ix) const {
@@ -106,8 +137,10 @@ private:
 
 bool names_proposed(const Claim& claim) {
     return std::any_of(claim.comparisons.begin(), claim.comparisons.end(), [](const Comparison& c) {
-        return c.left.run == kProposed || c.left.over_run == kProposed ||
-               (c.right && (c.right->run == kProposed || c.right->over_run == kProposed));
+        const auto names = [](const Term& t) {
+            return t.run == kProposed || t.over_run == kProposed || t.at_time_of == kProposed;
+        };
+        return names(c.left) || (c.right && names(*c.right));
     });
 }
 

@@ -19,6 +19,8 @@ struct Run {
     std::string method;
     std::map<std::string, double> parameters = {};
     std::string label = method;  ///< Its name in the report, no other run's of the figure.
+    double map_scale = 1.0;      ///< Of the sides of the setting's map.
+    std::string curve = {};      ///< Runs of one name are one method at several costs: its error against its seconds.
     bool proposed = false;       ///< The paper's own method, or the same idea done differently: claims are checked for each.
 };
 
@@ -29,6 +31,7 @@ struct Setting {
     uint32_t width = 1024;
     uint32_t height = 768;
     uint32_t shadow_res = 1024;
+    uint32_t camera = 0;
     uint32_t spp = 8;
     uint32_t segments = 1;  ///< Linear pieces of motion.
     double x = 0.0;         ///< Place on the plots' axis, where there is one.
@@ -55,6 +58,8 @@ struct Term {
     std::string run = kProposed;
     double factor = 1.0;        ///< Times this.
     std::string over_run = {};  ///< Divided by the same metric of this run; empty: not.
+    /// Not empty: `run` is a curve, taken where it has as many seconds as this run (io/error_curve.hpp).
+    std::string at_time_of = {};
 };
 
 /// left > right, or left < right. The right side is a term or a number.
@@ -68,6 +73,7 @@ struct Comparison {
     std::optional<Term> right = {};
     double number = 0.0;  ///< Without a right side; in the metric's own unit (shares of 1, seconds, bytes).
     Where where = Where::each;
+    std::string scene = {};  ///< Only settings of this scene; empty: all.
 };
 
 /// What a paper says, and what would have to be measured for it to hold: all of the comparisons.

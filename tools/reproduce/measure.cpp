@@ -19,6 +19,7 @@ RenderSettings render_settings(const Experiment& experiment, const Setting& sett
     return {.width = scaled(setting.width, scale),
             .height = scaled(setting.height, scale),
             .spp = setting.spp,
+            .camera = setting.camera,
             .shadow_res = experiment.full_maps ? setting.shadow_res : scaled(setting.shadow_res, scale)};
 }
 
@@ -26,13 +27,18 @@ RenderSettings settings_of(const RenderSettings& settings, const Run& run) {
     RenderSettings result = settings;
     result.method = run.method;
     result.parameters = run.parameters;
+    result.shadow_res = scaled(settings.shadow_res, run.map_scale);
     return result;
 }
 
 ReferenceSettings reference_settings(const RenderSettings& settings) {
     // Fast motion traces faster in more segments; the picture is the same.
-    return {
-        .width = settings.width, .height = settings.height, .spp = settings.spp, .seed = settings.seed, .embree_segments = 8};
+    return {.width = settings.width,
+            .height = settings.height,
+            .spp = settings.spp,
+            .seed = settings.seed,
+            .camera = settings.camera,
+            .embree_segments = 8};
 }
 
 double sample_count(const RenderSettings& settings) { return double(settings.width) * settings.height * settings.spp; }

@@ -80,6 +80,36 @@ std::string metric_plots(const Experiment& experiment, const ExperimentResult& r
     return plots;
 }
 
+// Errors against seconds: what a method reaches in the same time, and how long it takes to the same error.
+std::string time_plots(const Experiment& experiment, const ExperimentResult& result, Metric metric) {
+    std::string plots;
+    std::vector<std::string> names;
+    for (size_t i = 0; i < experiment.settings.size(); ++i) {
+        std::vector<PlotSeries> series;
+        for (size_t r = 0; r < experiment.runs.size(); ++r) {
+            const Run& run = experiment.runs[r];
+            const std::string& name = run.curve.empty() ? run.label : run.curve;
+            auto curve = std::find_if(series.begin(), series.end(), [&](const PlotSeries& s) { return s.name == name; });
+            if (curve == series.end()) curve = series.insert(series.end(), {name, {}});
+            const auto& metrics = result.settings[i].runs[r].metrics;
+            const Estimate error = metrics.at(metric);
+            const double unit = info(metric).plot_unit.size;
+            curve->points.push_back({metrics.at(Metric::seconds).value * 1e3, error.value / unit, error.standard_error / unit});
+        }
+        names.clear();
+        for (PlotSeries& s : series) {
+            std::sort(s.points.begin(), s.points.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+            names.push_back(s.name);
+        }
+        plots += line_plot(place(experiment, i), "frame, ms", plot_title(metric), series);
+    }
+    return legend(names) + element("div", {{"class", "plots"}}, plots);
+}
+
+bool has_curves(const Experiment& experiment) {
+    return std::any_of(experiment.runs.begin(), experiment.runs.end(), [](const Run& run) { return !run.curve.empty(); });
+}
+
 std::string stage_plots(const Experiment& experiment, const ExperimentResult& result) {
     std::string plots;
     std::vector<std::string> names;
@@ -212,6 +242,8 @@ std::string to_html(const FigureReport& report) {
         content += heading(2, "Plots") + (experiment.axis.empty() ? "" : legend(labels_of(experiment))) +
                    element("div", {{"class", "plots"}}, plots);
     }
+    if (experiment.with_reference && has_curves(experiment))
+        content += heading(2, "Error against time") + time_plots(experiment, result, Metric::error);
     if (figure.stage_plot) content += heading(2, "Times per stage") + stage_plots(experiment, result);
     content += heading(2, "Measured") + metric_table(experiment, result);
     content += heading(2, "Details") + details(experiment, result);

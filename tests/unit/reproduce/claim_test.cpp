@@ -103,9 +103,42 @@ TEST_F(Claims, RatiosOfRuns) {
                 ElementsAre(Verdict::holds, Verdict::does_not_hold));
 }
 
+TEST_F(Claims, OfOneScene) {
+    const auto results = check({{.left = new_seconds, .right = old_seconds, .scene = "a"}});
+    EXPECT_THAT(verdicts(results), ElementsAre(Verdict::holds, Verdict::holds));
+}
+
 TEST_F(Claims, AboutWhatIsNotMeasuredIsABug) {
     EXPECT_THROW(check({{.left = {Metric::flip}, .number = 1.0}}), Error);
     EXPECT_THROW(check({{.left = {Metric::seconds, "other"}, .number = 1.0}}), Error);
+}
+
+// A curve through 1 s and 4 s with errors 0.4 and 0.1 falls with the inverse of the seconds: 0.2 after 2 s.
+TEST(ClaimsOfCurves, AreReadAfterTheTimeOfARun) {
+    const auto verdict = [](double seconds, double error) {
+        auto experiment = std::make_shared<Experiment>();
+        experiment->runs = {{.method = "tsm", .label = "fast", .curve = "tsm"},
+                            {.method = "tsm", .label = "slow", .curve = "tsm"},
+                            {.method = "new"}};
+        experiment->settings.push_back({.scene = "a", .make = {}});
+        ExperimentResult result;
+        SettingResult& setting = result.settings.emplace_back();
+        for (const auto& [s, e] : {std::pair(1.0, 0.4), std::pair(4.0, 0.1), std::pair(seconds, error)})
+            setting.runs.emplace_back().metrics = {{Metric::seconds, {s, 0.0}}, {Metric::error, {e, 0.001}}};
+        const Comparison better{.left = {Metric::error, "new"},
+                                .right = Term{.metric = Metric::error, .run = "tsm", .at_time_of = "new"}};
+        const Figure figure{.name = "0000-1",
+                            .title = "",
+                            .shows = "",
+                            .experiment = experiment,
+                            .claims = {{.quote = "", .source = "", .comparisons = {better}}}};
+        return check_claims(figure, result)[0].verdict;
+    };
+    EXPECT_EQ(verdict(2.0, 0.19), Verdict::holds);
+    EXPECT_EQ(verdict(2.0, 0.21), Verdict::does_not_hold);
+    EXPECT_EQ(verdict(2.0, 0.2), Verdict::undecided);
+    EXPECT_EQ(verdict(0.5, 0.01), Verdict::undecided) << "before the curve";
+    EXPECT_EQ(verdict(5.0, 0.01), Verdict::undecided) << "after it";
 }
 
 }  // namespace
