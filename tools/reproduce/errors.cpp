@@ -69,6 +69,14 @@ double visibility_error(const Frame& frame, const Frame& reference) {
     return count > 0 ? std::sqrt(sum / double(count)) : 0.0;
 }
 
+Estimate without_noise(const Estimate& error, const Estimate& noise) {
+    const double square = error.value * error.value - noise.value * noise.value;
+    // Of the square; its root is known to half of it, relatively, and near 0 no better than the root of it.
+    const double spread = 2.0 * std::hypot(error.value * error.standard_error, noise.value * noise.standard_error);
+    const double root = std::sqrt(std::max(0.0, square));
+    return {root, std::min(root > 0.0 ? spread / (2.0 * root) : std::sqrt(spread), std::sqrt(spread))};
+}
+
 std::vector<double> visibility_difference(const Frame& frame, const Frame& reference) {
     const std::vector<float>&a = plane(frame, "A"), &b = plane(reference, "A");
     std::vector<double> result(a.size());

@@ -24,6 +24,9 @@ FalseShare false_share(const Frame& frame, const Frame& reference);
 /// RMSE of the visibility of all lights, over the pixels where both frames have hits.
 double visibility_error(const Frame& frame, const Frame& reference);
 
+/// sqrt(error^2 - noise^2), 0 where noise is all there is.
+Estimate without_noise(const Estimate& error, const Estimate& noise);
+
 /// Mean over lights of frame - reference, per pixel; 0 where one of them has no hit.
 std::vector<double> visibility_difference(const Frame& frame, const Frame& reference);
 

@@ -94,7 +94,10 @@ public:
 
     RunResult result() {
         for (const auto& [metric, values] : values_) result_.metrics[metric] = estimate(values);
-        if (const auto noise = variance_.noise()) result_.metrics[Metric::noise] = *noise;
+        if (const auto noise = variance_.noise()) {
+            result_.metrics[Metric::noise] = *noise;
+            result_.metrics[Metric::systematic] = without_noise(result_.metrics.at(Metric::error), *noise);
+        }
         for (const std::string& name : order_) {
             const auto& [seconds, map_seconds] = stages_.at(name);
             result_.stages.push_back({name, estimate(seconds), estimate(map_seconds)});

@@ -15,7 +15,7 @@ namespace gnomon::reproduce {
 
 struct MeasureOptions {
     double scale = 1.0;            ///< Of the sides of pictures, and of maps but where Experiment::full_maps.
-    uint32_t repeat = 3;           ///< Frames of each run, with seeds 0, 1, ...
+    uint32_t repeat = 3;           ///< Frames of each run, at least 2, with seeds 0, 1, ...
     uint32_t reference_spp = 128;  ///< Of the converged reference.
 };
 

@@ -18,6 +18,7 @@ const std::vector<MetricInfo>& metrics() {
         {Metric::excess_shadow, "excess_shadow", "excess shadow", percent, percent},
         {Metric::error, "error", "RMSE of visibility", plain, plain},
         {Metric::noise, "noise", "noise of visibility", plain, plain},
+        {Metric::systematic, "systematic", "error without noise", plain, plain},
         {Metric::flip, "flip", "FLIP", plain, plain},
         {Metric::seconds, "seconds", "frame", ms, ms},
         {Metric::map_seconds, "map_seconds", "making the shadow map", ms, ms},

@@ -16,6 +16,7 @@ enum class Metric {
                     ///< not.
     error,          ///< R: RMSE of visibility per pixel against the converged reference.
     noise,          ///< R: root mean over pixels of the variance of visibility between seeds.
+    systematic,     ///< R: of the error, what is not noise: sqrt(error^2 - noise^2), what more frames would not cure.
     flip,           ///< R: mean FLIP against the converged reference.
     seconds,        ///< On the device, all stages.
     map_seconds,    ///< Of these, what makes the lights' maps.

@@ -51,6 +51,15 @@ TEST(VisibilityErrors, OnlyWhereBothHaveHits) {
     EXPECT_THAT(visibility_difference(a, b), testing::ElementsAre(0.5, 1.0, 0.0, 0.0));
 }
 
+TEST(Noise, TakenFromTheErrorLeavesWhatIsSystematic) {
+    const Estimate rest = without_noise({0.5, 0.01}, {0.3, 0.0});
+    EXPECT_DOUBLE_EQ(rest.value, 0.4);
+    EXPECT_DOUBLE_EQ(rest.standard_error, 0.5 * 0.01 / 0.4);
+    EXPECT_EQ(without_noise({0.3, 0.0}, {0.5, 0.0}).value, 0.0);
+    // The square is 0 within 0.006.
+    EXPECT_DOUBLE_EQ(without_noise({0.3, 0.01}, {0.3, 0.0}).standard_error, std::sqrt(0.006));
+}
+
 TEST(Noise, IsTheRootOfTheMeanVariance) {
     VisibilityVariance variance;
     variance.add(frame({1.0f, 1.0f, 1.0f}, {0.0f, 0.5f, 0.0f}));
