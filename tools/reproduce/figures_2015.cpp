@@ -69,7 +69,7 @@ std::vector<Figure> figures_2015() {
          .shows =
              "The light moves up and away from pillars that stand still. The turn of the light is cut into 4 linear pieces.",
          .experiment = difficult(
-             "pillars", [](const Path& path) { makers::make_pillars(path); }, 4),
+             "pillars", [](const Path& path) { makers::make_pillars(path, {.rising = true}); }, 0.08, 4),
          .plots = {Metric::systematic, Metric::noise, Metric::flip},
          .claims = {{.quote = "DSM does not account for moving light sources either, and get severe self-shadowing artifacts.",
                      .source = "caption of Fig. 11",
