@@ -27,12 +27,24 @@ std::string class_of(Verdict verdict) {
     return name;
 }
 
-std::string check_item(const Check& check) {
+std::string mark(Verdict verdict) {
     const char* marks[] = {"✓", "✗", "?"};
-    const std::string mark = element("span", {{"class", "mark " + class_of(check.verdict)}, {"title", to_text(check.verdict)}},
-                                     marks[static_cast<size_t>(check.verdict)]);
-    return element("li", mark + " " + escaped(check.statement) +
-                             element("span", {{"class", "measured"}}, escaped(check.measured + " (" + check.scene + ")")));
+    return element("span", {{"class", "mark " + class_of(verdict)}, {"title", to_text(verdict)}},
+                   marks[static_cast<size_t>(verdict)]);
+}
+
+// A statement, and what was measured wherever it was checked.
+std::string check_list(const std::vector<Check>& checks) {
+    std::string items;
+    for (size_t i = 0; i < checks.size();) {
+        const std::string& statement = checks[i].statement;
+        std::string measured;
+        for (; i < checks.size() && checks[i].statement == statement; ++i)
+            measured += element("span", {{"class", "measured"}},
+                                mark(checks[i].verdict) + " " + escaped(checks[i].measured + " (" + checks[i].scene + ")"));
+        items += element("li", escaped(statement) + measured);
+    }
+    return element("ul", {{"class", "checks"}}, items);
 }
 
 }  // namespace
@@ -67,11 +79,8 @@ std::string verdict_html(Verdict verdict) {
 std::string claims_table(const std::vector<ClaimResult>& claims) {
     Table table({"The paper says", "checked for", "verdict", "measured here"});
     for (const ClaimResult& claim : claims) {
-        std::string checks;
-        for (const Check& check : claim.checks) checks += check_item(check);
         table.add({element("blockquote", "“" + escaped(claim.quote) + "”") + element("cite", escaped(claim.source)),
-                   escaped(claim.run.empty() ? "–" : claim.run), verdict_html(claim.verdict),
-                   element("ul", {{"class", "checks"}}, checks)});
+                   escaped(claim.run.empty() ? "–" : claim.run), verdict_html(claim.verdict), check_list(claim.checks)});
     }
     return element("div", {{"class", "wide"}}, table.html());
 }

@@ -30,16 +30,16 @@ protected:
 TEST_F(CliReproduceTest, ListsFiguresWithTheirMethods) {
     const CommandResult result = reproduce({"--list"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
-    EXPECT_THAT(result.out, HasSubstr("2018-9 "));
+    EXPECT_THAT(result.out, HasSubstr("2015-13 "));
     EXPECT_THAT(result.out, HasSubstr("tsm, "));
 }
 
 TEST_F(CliReproduceTest, BadArgumentsAreUsage) {
-    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"2018-9"},
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"2015-13"},
                                                       {"-o", "out"},
                                                       {"2016-1", "-o", "out"},
-                                                      {"2018-9", "-o", "out", "--scale", "0"},
-                                                      {"2018-9", "-o", "out", "--repeat", "x"}}) {
+                                                      {"2015-13", "-o", "out", "--scale", "0"},
+                                                      {"2015-13", "-o", "out", "--repeat", "x"}}) {
         const CommandResult result = reproduce(arguments);
         EXPECT_EQ(result.exit_code, 2) << testing::PrintToString(arguments);
         EXPECT_THAT(result.err, HasSubstr("gnomon: error: "));
@@ -49,25 +49,25 @@ TEST_F(CliReproduceTest, BadArgumentsAreUsage) {
 
 TEST_F(CliReproduceTest, FolderThatCannotBeMade) {
     put_content(folder / "file", "");
-    EXPECT_EQ(reproduce({"2018-9", "-o", "file/out"}).exit_code, 3);
+    EXPECT_EQ(reproduce({"2015-13", "-o", "file/out"}).exit_code, 3);
     EXPECT_EQ(names(), Names{"file"});
 }
 
 TEST_F(CliReproduceTest, SmallestFigures) {
     if (!has_device()) GTEST_SKIP() << "skipped: no usable Vulkan device";
     const CommandResult result =
-        reproduce({"2018-9", "2017-8", "-o", "out", "--scale=0.04", "--repeat=2", "--reference-spp=8", "--quiet"});
+        reproduce({"2015-13", "2015-12", "-o", "out", "--scale=0.04", "--repeat=2", "--reference-spp=8", "--quiet"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    EXPECT_THAT(result.out, HasSubstr("2018-9: out/2018-9.html"));
-    for (const char* name : {"2018-9.html", "2018-9.json", "2017-8.html", "2017-8.json", "index.html"})
+    EXPECT_THAT(result.out, HasSubstr("2015-13: out/2015-13.html"));
+    for (const char* name : {"2015-13.html", "2015-13.json", "2015-12.html", "2015-12.json", "index.html"})
         EXPECT_TRUE(std::filesystem::exists(folder / "out" / name)) << name;
 
-    const json figure = json::parse(content_of(folder / "out" / "2018-9.json"));
+    const json figure = json::parse(content_of(folder / "out" / "2015-13.json"));
     EXPECT_EQ(figure["schema"], "gnomon.reproduce");
     EXPECT_EQ(figure["scale"], 0.04);
     ASSERT_EQ(figure["settings"].size(), 1u);
-    EXPECT_EQ(figure["settings"][0]["width"], 41);
+    EXPECT_EQ(figure["settings"][0]["width"], 51);
     for (const json& run : figure["settings"][0]["runs"]) {
         SCOPED_TRACE(run["label"]);
         double seconds = 0.0;
@@ -87,12 +87,12 @@ TEST_F(CliReproduceTest, SmallestFigures) {
     ASSERT_FALSE(figure["claims"].empty());
     EXPECT_FALSE(figure["claims"][0]["checks"].empty());
 
-    const std::string page = content_of(folder / "out" / "2018-9.html");
+    const std::string page = content_of(folder / "out" / "2015-13.html");
     EXPECT_THAT(page, HasSubstr("<svg"));
     EXPECT_THAT(page, HasSubstr("data:image/png;base64,"));
     for (const char* outside : {"http://", "https://", "src=\"/", "url("})
         EXPECT_EQ(page.find(outside), std::string::npos) << "a page needs nothing else: " << outside;
-    EXPECT_THAT(content_of(folder / "out" / "index.html"), HasSubstr("href=\"2017-8.html\""));
+    EXPECT_THAT(content_of(folder / "out" / "index.html"), HasSubstr("href=\"2015-12.html\""));
 }
 
 TEST_F(CliReproduceTest, InterruptExitsWith130AndLeavesNoHalfFile) {

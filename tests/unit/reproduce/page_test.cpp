@@ -49,10 +49,10 @@ class PageTest : public TestFolder {};
 TEST_F(PageTest, WorksInChromium) {
     if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "skipped: Chromium is not installed";
     const CommandResult made =
-        run_gnomon(folder, {"reproduce", "2018-9", "-o", "out", "--scale=0.04", "--repeat=2", "--reference-spp=4", "--quiet"});
+        run_gnomon(folder, {"reproduce", "2015-13", "-o", "out", "--scale=0.04", "--repeat=2", "--reference-spp=4", "--quiet"});
     if (made.exit_code == 4) GTEST_SKIP() << "skipped: no usable Vulkan device";
     ASSERT_EQ(made.exit_code, 0) << made.err;
-    std::string page = content_of(folder / "out" / "2018-9.html");
+    std::string page = content_of(folder / "out" / "2015-13.html");
     page.insert(page.rfind("</body>"), kReader);
     put_content(folder / "page.html", page);
     const std::string command = "timeout 120 chromium --headless=new --no-sandbox --disable-gpu --user-data-dir='" +
