@@ -83,8 +83,8 @@ struct RandomCubesOptions {
     double size = 1.0;       ///< Side, > 0.
     double speed_min = 4.0;  ///< Metres in a shutter, 0 <= speed_min <= speed_max.
     double speed_max = 8.0;
-    /// Metres, of the space that they fill and the picture shows, 0 to 10,000; 0: it grows with their number, size and speed, so
-    /// that they cover about the same share of the picture.
+    /// Metres, of the space that they fill and the picture shows, 0 to 10,000; 0: it grows with their number, size and speed,
+    /// so that they cover about the same share of the picture.
     double height = 0.0;
     double ground = 4.0;  ///< Side, in heights of that space, 0.1 to 100. The light's view holds it all.
 };
