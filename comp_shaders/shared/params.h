@@ -83,8 +83,8 @@ struct RasterParams {
     ViewGrid grid;
     uint item_count;  // Items (a tile in a cell: tile * cell_count + cell) of this dispatch.
     uint item_first;
-    uint list_first;   // Walk entries [list_first, list_first + kListChunk) of each list.
-    uint range_first;  // The number of the first range in the bound memory.
+    uint list_first;      // Walk entries [list_first, list_first + kListChunk) of each list.
+    uint range_first;     // The number of the first range in the bound memory.
     uint fragment_first;  // raster/prism: the number of the first fragment in memory.
 };
 

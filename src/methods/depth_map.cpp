@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <gnomon/error.hpp>
-#include <sstream>
 
 #include "math/sample.h"
 #include "stages/grid.hpp"
@@ -49,9 +48,8 @@ float map_bias(const LightContext& light, double texels) {
 }
 
 std::map<std::string, std::string> map_effective(const Sampling& sampling, float bias) {
-    std::ostringstream metres;
-    metres << bias;
-    return {{sampling.sliced ? "slices" : "map_spp", std::to_string(sampling.spp)}, {"bias", metres.str()}};
+    return {{sampling.sliced ? "slices" : "map_spp", std::to_string(sampling.spp)},
+            {"bias", number_text(static_cast<double>(bias))}};
 }
 
 void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bins& bins, Tracer& tracer,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <bit>
 #include <gnomon/error.hpp>
-#include <sstream>
 
 #include "methods/depth_map.hpp"
 #include "stages/grid.hpp"
@@ -33,10 +32,9 @@ public:
                 {"map_bytes", offsets_.bytes() + cluster_count_ * sizeof(glm::vec2)}};
     }
     std::map<std::string, std::string> effective() const override {
-        std::ostringstream bias, extent;
-        bias << map_bias(light_);
-        extent << dsm_extent(light_);
-        return {{"map_spp", std::to_string(sampling_.spp)}, {"bias", bias.str()}, {"cluster", extent.str()}};
+        std::map<std::string, std::string> all = map_effective(sampling_, map_bias(light_));
+        all["cluster"] = number_text(static_cast<double>(dsm_extent(light_)));
+        return all;
     }
     std::vector<gpu::Binding> read_bindings() const override {
         return {{"offsets", &offsets_, Texel::r32_uint}, {"clusters", &clusters_, Texel::rg32_float}};

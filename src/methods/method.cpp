@@ -42,12 +42,6 @@ Method depth_map_method(const std::string& name, const std::string& summary, con
                                const Bins& bins) { return std::make_unique<DepthMap>(light, bins, kind); }};
 }
 
-std::string number(double value) {
-    std::ostringstream text;
-    text << value;
-    return text.str();
-}
-
 }  // namespace
 
 std::optional<double> LightContext::parameter(const std::string& name) const {
@@ -146,6 +140,12 @@ std::string choose_raster(const Method& method, const std::string& option) {
                 "use auto or " + join(method.rasters));
 }
 
+std::string number_text(double value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
 void check_parameters(const Method& method, const std::map<std::string, double>& parameters) {
     for (const auto& [name, value] : parameters) {
         std::vector<std::string> known;
@@ -159,9 +159,9 @@ void check_parameters(const Method& method, const std::map<std::string, double>&
                         known.empty() ? "it has none" : "it has " + join(known));
         }
         if (!(value >= found->least && value <= found->most) || (found->whole && value != std::floor(value))) {
-            throw Error(ErrorKind::usage, name + " is " + number(value), "--" + name,
-                        std::string("use ") + (found->whole ? "a whole number " : "") + "from " + number(found->least) +
-                            " to " + number(found->most) + " " + found->unit);
+            throw Error(ErrorKind::usage, name + " is " + number_text(value), "--" + name,
+                        std::string("use ") + (found->whole ? "a whole number " : "") + "from " + number_text(found->least) +
+                            " to " + number_text(found->most) + " " + found->unit);
         }
     }
 }

@@ -77,6 +77,9 @@ const Method& find_method(const std::string& name);
 /// The stage raster/<name> that `option` ("auto" or a name) asks for. Errors: ErrorKind::usage, naming what the method can use.
 std::string choose_raster(const Method& method, const std::string& option);
 
+/// As text, with six significant digits.
+std::string number_text(double value);
+
 /// Errors: ErrorKind::usage, for a parameter that the method does not have, or out of its range.
 void check_parameters(const Method& method, const std::map<std::string, double>& parameters);
 

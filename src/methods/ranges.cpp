@@ -3,7 +3,6 @@
 
 #include <bit>
 #include <gnomon/error.hpp>
-#include <sstream>
 
 #include "methods/depth_map.hpp"
 #include "stages/coverage.hpp"
@@ -55,9 +54,7 @@ public:
         return counts;
     }
     std::map<std::string, std::string> effective() const override {
-        std::ostringstream bias;
-        bias << bias_;
-        return {{"bias", bias.str()}};
+        return {{"bias", number_text(static_cast<double>(bias_))}};
     }
     std::vector<gpu::Binding> read_bindings() const override {
         std::vector<gpu::Binding> all = ranges_.read_bindings();

@@ -229,24 +229,11 @@ class DepthMapCubesTest : public TwoCubes<> {
 protected:
     DepthMapCubesTest() : TwoCubes(96, 64, 8) { settings.keep_samples = true; }
 
-    Frame render(const std::string& method) {
-        settings.method = method;
-        return renderer().render(scene, poses, settings);
-    }
-
     double wrong_share(const std::string& method) {
         settings.parameters.clear();
         const Frame exact = render("exact");
         if (method != "exact") settings.parameters = parameters;
-        const Frame frame = render(method);
-        double hits = 0.0, wrong = 0.0;
-        for (size_t i = 0; i < frame.samples.size(); ++i) {
-            EXPECT_EQ(frame.samples[i].triangle, exact.samples[i].triangle);
-            if (frame.samples[i].triangle == SampleRecord::kMiss) continue;
-            hits += 1.0;
-            wrong += frame.samples[i].lit != exact.samples[i].lit ? 1.0 : 0.0;
-        }
-        return wrong / hits;
+        return differing(render(method), exact);
     }
 
     std::map<std::string, double> parameters;

@@ -112,13 +112,8 @@ protected:
         settings.shadow_res = 512;
     }
 
-    Frame render(const std::string& method) {
-        settings.method = method;
-        return renderer().render(scene, poses, settings);
-    }
-
     struct Error {
-        double samples = 0.0, bias = 0.0, absolute = 0.0;
+        double samples = 0.0, bias = 0.0;
     };
 
     /// Mean of the visibility less the exact method's, of samples on moving or still triangles.
@@ -132,10 +127,8 @@ protected:
             const double difference = double(frame.sample_visibility.at(i)) - (exact.samples[i].lit & 1u);
             e.samples += 1.0;
             e.bias += difference;
-            e.absolute += std::fabs(difference);
         }
         e.bias /= e.samples;
-        e.absolute /= e.samples;
         return e;
     }
 };

@@ -19,23 +19,6 @@ protected:
         settings.keep_samples = true;
         settings.shadow_res = 200;
     }
-
-    Frame render(const std::string& method) {
-        settings.method = method;
-        return renderer().render(scene, poses, settings);
-    }
-
-    /// Of the samples that hit, the share whose light differs.
-    static double differing(const Frame& a, const Frame& b) {
-        double hits = 0.0, differ = 0.0;
-        for (size_t i = 0; i < a.samples.size(); ++i) {
-            EXPECT_EQ(a.samples[i].triangle, b.samples[i].triangle);
-            if (a.samples[i].triangle == SampleRecord::kMiss) continue;
-            hits += 1.0;
-            differ += a.samples[i].lit != b.samples[i].lit ? 1.0 : 0.0;
-        }
-        return differ / hits;
-    }
 };
 
 // Equation 2 of the paper of 2018, with a list per segment.

@@ -28,6 +28,23 @@ protected:
         settings.spp = spp;
     }
 
+    Frame render(const std::string& method) {
+        settings.method = method;
+        return renderer().render(scene, poses, settings);
+    }
+
+    /// Of the samples that hit, the share whose light differs.
+    static double differing(const Frame& a, const Frame& b) {
+        double hits = 0.0, differ = 0.0;
+        for (size_t i = 0; i < a.samples.size(); ++i) {
+            EXPECT_EQ(a.samples[i].triangle, b.samples[i].triangle);
+            if (a.samples[i].triangle == SampleRecord::kMiss) continue;
+            hits += 1.0;
+            differ += a.samples[i].lit != b.samples[i].lit ? 1.0 : 0.0;
+        }
+        return differ / hits;
+    }
+
     static void expect_same_bits(const Frame& frame, const Frame& expected) {
         ASSERT_EQ(frame.channels.size(), expected.channels.size());
         for (size_t i = 0; i < frame.channels.size(); ++i)
