@@ -52,15 +52,17 @@ void visit_texels(uint number) {
     uint end = inside ? min(texelFetch(bin_offsets, int(item + 1u)).x, k + kListChunk) : 0u;
     uint lane = gl_LocalInvocationID.x & 7u;
     while (k < end) {
-        uint share = max(8u / (end - k), 1u);  // Invocations of one prism.
-        uint number_here = lane / share;
-        bool own = number_here < end - k;
+        uint left = end - k;
+        uint share_log2 = left > 4u ? 0u : left > 2u ? 1u : left > 1u ? 2u : 3u;  // Of the invocations of one prism.
+        uint share = 1u << share_log2;
+        uint number_here = lane >> share_log2;
+        bool own = number_here < left;
         uint entry = texelFetch(bin_entries, int(min(k + number_here, end - 1u))).x & ~kReversed;
         CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
         PrismSurface surface = prism_surface(c, centre.x, centre.y, kOrthographic);
         uvec4 texels = covered_texels(c, centre, grid_extent(grid));
         uvec2 last = min(texels.zw, most);
-        uvec2 at = uvec2(texels.x, texels.y + lane % share);
+        uvec2 at = uvec2(texels.x, texels.y + (lane & (share - 1u)));
         bool more = own && at.x <= last.x && at.y <= last.y && !is_culled(c);
         while (more) {
             PrismFragments fragments = fragments_at(surface, float(at.x) - 3.5, float(at.y) - 3.5, kOrthographic ? -kFarthest : 0.0);

@@ -133,7 +133,7 @@ GN_FN void add_fragment(GN_INOUT(PrismFragments) f, uint i, bool covered, vec3 w
                         float least_metres) {
     float sum = weights.x + weights.y + weights.z;
     bool point = sum == 0.0f;  // Of no area: the mean will do.
-    vec3 w = point ? vec3(1.0f / 3.0f) : weights / sum;
+    vec3 w = point ? vec3(1.0f / 3.0f) : weights * (1.0f / sum);
     f.metres[i] = w.x * metres.x + w.y * metres.y + w.z * metres.z;
     f.time[i] = w.x * times.x + w.y * times.y + w.z * times.z;
     f.covered |= covered && f.metres[i] > least_metres ? 1u << i : 0u;

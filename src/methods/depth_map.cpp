@@ -16,7 +16,7 @@ Parameter bias_parameter() {
     return {"bias",
             "metres",
             "Along the light's axis; what is nearer to a hit than this does not shadow it",
-            "two texels' width; a spot's at a distance of the scene's diagonal",
+            "two texels' width, a spot's at the hit's depth",
             0,
             1e6};
 }
@@ -40,16 +40,24 @@ uint32_t map_seed(const LightContext& light) {
     return shared::hash_pcg(light.settings.seed ^ shared::hash_pcg(light.light_ix + 1));
 }
 
-float map_bias(const LightContext& light, double texels) {
-    // A surface that the light meets at 45 degrees is sqrt(2) texels deeper in one corner of a texel than in the other.
-    const double diagonal = glm::length(glm::dvec3(light.bounds.upper) - glm::dvec3(light.bounds.lower));
-    const double texel = (light.view.orthographic ? 1.0 : diagonal) / std::min(light.view.scale_x, light.view.scale_y);
-    return static_cast<float>(light.parameter("bias").value_or(texels * texel));
+std::vector<uint32_t> AxisLength::constants() const {
+    return {std::bit_cast<uint32_t>(metres), std::bit_cast<uint32_t>(per_metre)};
 }
 
-std::map<std::string, std::string> map_effective(const Sampling& sampling, float bias) {
-    return {{sampling.sliced ? "slices" : "map_spp", std::to_string(sampling.spp)},
-            {"bias", number_text(static_cast<double>(bias))}};
+std::pair<std::string, std::string> AxisLength::effective(const std::string& name) const {
+    if (per_metre != 0.0f) return {name + "_per_metre", number_text(static_cast<double>(per_metre))};
+    return {name, number_text(static_cast<double>(metres))};
+}
+
+AxisLength map_bias(const LightContext& light, double texels) {
+    if (const std::optional<double> metres = light.parameter("bias")) return {static_cast<float>(*metres)};
+    // A surface that the light meets at 45 degrees is sqrt(2) texels deeper in one corner of a texel than in the other.
+    const auto length = static_cast<float>(texels / std::min(light.view.scale_x, light.view.scale_y));
+    return light.view.orthographic ? AxisLength{length, 0.0f} : AxisLength{0.0f, length};
+}
+
+std::map<std::string, std::string> map_effective(const Sampling& sampling, const AxisLength& bias) {
+    return {{sampling.sliced ? "slices" : "map_spp", std::to_string(sampling.spp)}, bias.effective("bias")};
 }
 
 void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bins& bins, Tracer& tracer,
@@ -124,7 +132,9 @@ std::vector<gpu::Binding> DepthMap::read_bindings() const {
 }
 
 std::vector<uint32_t> DepthMap::test_constants() const {
-    return {std::bit_cast<uint32_t>(map_bias(light_)), motion() ? 1u : 0u, sampling_.seed};
+    std::vector<uint32_t> all = map_bias(light_).constants();
+    all.insert(all.end(), {motion() ? 1u : 0u, sampling_.seed});
+    return all;
 }
 
 }  // namespace gnomon

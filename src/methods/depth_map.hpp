@@ -15,7 +15,17 @@ enum class DepthMapKind {
     slices,        ///< accumulate
 };
 
-/// The constant bias of all methods that compare depths.
+/// A length along the light's axis, at a depth of so many metres: metres + per_metre * depth.
+struct AxisLength {
+    float metres = 0.0f;
+    float per_metre = 0.0f;
+
+    std::vector<uint32_t> constants() const;  ///< Both, as shaders take them.
+    /// The one that is not 0, as `name` or `name`_per_metre.
+    std::pair<std::string, std::string> effective(const std::string& name) const;
+};
+
+/// The bias of all methods that compare depths.
 Parameter bias_parameter();
 
 /// map-spp or slices, and bias.
@@ -28,11 +38,11 @@ Sampling map_sampling(const LightContext& light, DepthMapKind kind);
 /// A seed of the light's own.
 uint32_t map_seed(const LightContext& light);
 
-/// Metres: bias, else so many texels' widths; of a spot's, at a distance of the diagonal of the scene's bounds.
-float map_bias(const LightContext& light, double texels = 2.0);
+/// Metres: bias, else so many texels' widths: those at the hit's depth.
+AxisLength map_bias(const LightContext& light, double texels = 2.0);
 
 /// map_spp (slices) and bias, as they are used.
-std::map<std::string, std::string> map_effective(const Sampling& sampling, float bias);
+std::map<std::string, std::string> map_effective(const Sampling& sampling, const AxisLength& bias);
 
 /// Trace a batch of a light's samples and write them to elements [first, ...) of `samples`, of so many floats: 1, the depth; 2,
 /// with the motion along the axis; 4, with the motion in x and y before it.

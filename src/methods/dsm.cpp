@@ -5,7 +5,6 @@
 #include <bit>
 #include <gnomon/error.hpp>
 
-#include "methods/depth_map.hpp"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
 
@@ -33,16 +32,20 @@ public:
     }
     std::map<std::string, std::string> effective() const override {
         std::map<std::string, std::string> all = map_effective(sampling_, map_bias(light_));
-        all["cluster"] = number_text(static_cast<double>(dsm_extent(light_)));
+        all.insert(dsm_extent(light_).effective("cluster"));
         return all;
     }
     std::vector<gpu::Binding> read_bindings() const override {
         return {{"offsets", &offsets_, Texel::r32_uint}, {"clusters", &clusters_, Texel::rg32_float}};
     }
-    std::vector<uint32_t> test_constants() const override { return {std::bit_cast<uint32_t>(map_bias(light_))}; }
+    std::vector<uint32_t> test_constants() const override { return map_bias(light_).constants(); }
 
 private:
-    gpu::Buffer make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch);
+    struct Piece {
+        gpu::Buffer clusters;
+        uint32_t count = 0;
+    };
+    Piece make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch);
 
     const LightContext& light_;
     const Bins& bins_;
@@ -63,7 +66,7 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
     offsets_ = device.allocate("map_offsets", (texels + 1) * 4);
     const uint64_t tile_bytes = uint64_t(sampling_.spp) * shared::kTileTexels * 4;
     const auto step = static_cast<uint32_t>(std::clamp<uint64_t>(kBatchBytes / tile_bytes, 1, tile_count_));
-    std::vector<gpu::Buffer> pieces;
+    std::vector<Piece> pieces;
     {
         Tracer tracer(device, light.programs, light.geometry, light.view, bins, "map/trace", sampling_,
                       uint64_t(step) * sampling_.spp * shared::kTileTexels);
@@ -78,24 +81,25 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
     clusters_ = device.allocate("clusters", cluster_count_ * sizeof(glm::vec2));
     gpu::Recorder recorder(device);
     uint64_t at = 0;
-    for (const gpu::Buffer& piece : pieces) {
-        if (piece.bytes() >= sizeof(glm::vec2)) recorder.copy("map/cluster", piece, 0, clusters_, at, piece.bytes());
-        at += piece.bytes();
+    for (const Piece& piece : pieces) {
+        const uint64_t bytes = piece.count * sizeof(glm::vec2);
+        if (bytes > 0) recorder.copy("map/cluster", piece.clusters, 0, clusters_, at, bytes);
+        at += bytes;
     }
     recorder.fill("map/cluster", offsets_, static_cast<uint32_t>(cluster_count_), texels * 4, 4);
     recorder.submit();
 }
 
-// The clusters of the batch's texels, as many bytes as they need, and their texels' offsets.
-gpu::Buffer DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch) {
+// The clusters of the batch's texels, and their texels' offsets.
+DeepShadowMap::Piece DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch) {
     gpu::Device& device = light_.device;
     const uint32_t texels = batch.tile_count * shared::kTileTexels;
-    const uint32_t extent = std::bit_cast<uint32_t>(dsm_extent(light_));
+    const std::vector<uint32_t> extent = dsm_extent(light_).constants();
     const gpu::Buffer counts = device.allocate("cluster_counts", scan_bytes(texels));
     const shared::ClusterParams params{batch.tile_count, sampling_.spp, batch.tile_first * shared::kTileTexels,
                                        static_cast<uint32_t>(cluster_count_)};
     const auto record = [&](gpu::Recorder& recorder, bool fill, const gpu::Buffer& clusters) {
-        recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill, extent}),
+        recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill, extent[0], extent[1]}),
                           bindings({{"map_samples", &samples, Texel::r32_float},
                                     {"scanned", fill ? &counts : &unbound_, Texel::r32_uint},
                                     {"Counts", fill ? &unbound_ : &counts},
@@ -114,7 +118,7 @@ gpu::Buffer DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samp
     record(recorder, true, clusters);
     recorder.submit();
     cluster_count_ += found;
-    return clusters;
+    return {std::move(clusters), found};
 }
 
 }  // namespace
@@ -131,8 +135,10 @@ Sampling dsm_sampling(const LightContext& light) {
     return {static_cast<uint32_t>(light.parameter("map-spp").value_or(128)), map_seed(light)};
 }
 
-float dsm_extent(const LightContext& light) {
-    return static_cast<float>(light.parameter("cluster").value_or(0.5 * static_cast<double>(map_bias(light))));
+AxisLength dsm_extent(const LightContext& light) {
+    if (const std::optional<double> metres = light.parameter("cluster")) return {static_cast<float>(*metres)};
+    const AxisLength bias = map_bias(light);
+    return {0.5f * bias.metres, 0.5f * bias.per_metre};
 }
 
 std::unique_ptr<ShadowMap> make_deep_shadow_map(const LightContext& light, const Bins& bins) {

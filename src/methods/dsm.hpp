@@ -3,7 +3,7 @@
 // Sources: Lokovic and Veach 2000; Andersson et al. 2015, sections 2 and 6.
 #pragma once
 
-#include "methods/method.hpp"
+#include "methods/depth_map.hpp"
 #include "stages/trace.hpp"
 
 namespace gnomon {
@@ -15,7 +15,7 @@ std::vector<Parameter> dsm_parameters();
 Sampling dsm_sampling(const LightContext& light);
 
 /// Metres: cluster, else half the bias.
-float dsm_extent(const LightContext& light);
+AxisLength dsm_extent(const LightContext& light);
 
 /// The visibility functions of all texels, made at once. Errors: ErrorKind::out_of_memory.
 std::unique_ptr<ShadowMap> make_deep_shadow_map(const LightContext& light, const Bins& bins);

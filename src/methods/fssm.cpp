@@ -61,7 +61,7 @@ bool all_same(const View& view) {
 
 std::vector<Parameter> fssm_parameters() {
     std::vector<Parameter> all = depth_map_parameters(DepthMapKind::stochastic);
-    all.back().initial = "a quarter of a texel's width; a spot's at a distance of the scene's diagonal";
+    all.back().initial = "a quarter of a texel's width, a spot's at the hit's depth";
     const auto add = [&](const std::string& name, const std::string& unit, const std::string& summary,
                          const std::string& initial, double least, double most) {
         all.push_back({name, unit, summary, initial, least, most, true});
@@ -250,17 +250,10 @@ std::vector<gpu::Binding> Fssm::read_bindings() const {
 }
 
 std::vector<uint32_t> Fssm::test_constants() const {
-    return {std::bit_cast<uint32_t>(bias_),
-            sizes_.tile,
-            sizes_.window,
-            sizes_.grid,
-            layer_count_,
-            tuple_count_,
-            level_count_,
-            given(light_, "footprint"),
-            given(light_, "tent"),
-            given(light_, "neighbours"),
-            views_move_};
+    std::vector<uint32_t> all = bias_.constants();
+    all.insert(all.end(), {sizes_.tile, sizes_.window, sizes_.grid, layer_count_, tuple_count_, level_count_,
+                           given(light_, "footprint"), given(light_, "tent"), given(light_, "neighbours"), views_move_});
+    return all;
 }
 
 }  // namespace gnomon

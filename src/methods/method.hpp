@@ -37,7 +37,6 @@ struct LightContext {
     const RenderSettings& settings;
     const Method& method;
     const View& view;  ///< The light's.
-    const Bounds& bounds;
     uint32_t light_ix = 0;
     bool still = false;  ///< Nothing moves.
     uint64_t bytes = 0;  ///< Its share of the memory budget.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/ranges.hpp"
 
-#include <bit>
 #include <gnomon/error.hpp>
 
 #include "methods/depth_map.hpp"
@@ -53,20 +52,18 @@ public:
         }
         return counts;
     }
-    std::map<std::string, std::string> effective() const override {
-        return {{"bias", number_text(static_cast<double>(bias_))}};
-    }
+    std::map<std::string, std::string> effective() const override { return {bias_.effective("bias")}; }
     std::vector<gpu::Binding> read_bindings() const override {
         std::vector<gpu::Binding> all = ranges_.read_bindings();
         if (coverage_.coverage) all.push_back({"coverage", &coverage_.coverage, gpu::Texel::r32_uint});
         return all;
     }
-    std::vector<uint32_t> test_constants() const override { return {std::bit_cast<uint32_t>(bias_)}; }
+    std::vector<uint32_t> test_constants() const override { return bias_.constants(); }
 
 private:
     CoverageMap coverage_;
     SBuffer ranges_;
-    float bias_;
+    AxisLength bias_;
 };
 
 void check_culling(const LightContext& light) {

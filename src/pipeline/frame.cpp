@@ -231,7 +231,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     MapClock map_clock(device);
     std::vector<LightContext> contexts;
     for (const LightSide& side : sides) {
-        contexts.push_back({device, programs, geometry, settings, method, side.view, bounds, side.light_ix, is_still(poses),
+        contexts.push_back({device, programs, geometry, settings, method, side.view, side.light_ix, is_still(poses),
                             budget / sides.size(), layout, raster, &view});
     }
     for (size_t i = 0; i < sides.size(); ++i) {

@@ -125,12 +125,10 @@ TEST_F(DepthMapTest, SamplesAreWhatTheOracleSees) {
                 const std::vector<Pose> poses = soup.poses();
                 const View view = soup.view();
                 const Geometry geometry = pose_geometry(device(), programs(), scene, poses);
-                const Bounds bounds{};
                 RenderSettings settings;
                 settings.parameters[sliced ? "slices" : "map-spp"] = 7;
                 const Method& method = find_method(motion ? "tsm-dynamic-bias" : sliced ? "accumulate" : "tsm");
-                const LightContext light{device(), programs(), geometry, settings,   method, view,
-                                         bounds,   0,          false,    1ull << 30, {},     ""};
+                const LightContext light{device(), programs(), geometry, settings, method, view, 0, false, 1ull << 30, {}, ""};
                 const Bins bins = bin_prisms(device(), programs(), geometry, view, method.light_cells(light));
                 DepthMap map(light, bins, kind);
                 const std::vector<MapSample> samples = map_samples(device(), map, motion, 1ull << 40);
@@ -188,6 +186,10 @@ protected:
     Frame render(const std::string& method, double bias) {
         settings.method = method;
         if (method != "exact") settings.parameters["bias"] = bias;
+        return render_as_set();
+    }
+
+    Frame render_as_set() {
         static Renderer renderer("", true);
         return renderer.render(scene.scene, scene.poses, settings);
     }
@@ -214,6 +216,30 @@ TEST_P(RisingSquareTest, ShadowsItselfAsOftenAsTheTimesAreMismatched) {
         EXPECT_NEAR(static_cast<double>(shadowed(frame)) / kSamples, p, 5.0 * error + 1e-3) << "bias " << bias;
         EXPECT_EQ(frame.effective.at("map_spp"), "4");
     }
+}
+
+// A spot's texels are wider the farther they are, and so is the bias; the light is 12 metres above the square at first.
+TEST_P(RisingSquareTest, WithoutABiasTakesTwoTexelsWidth) {
+    settings.parameters.clear();
+    settings.method = "tsm";
+    settings.shadow_res = 256;
+    const Frame frame = render_as_set();
+    const bool spot = GetParam() == LightKind::spot;
+    const double width = spot ? 2.0 * std::tan(0.9) / 256.0 : std::stod(frame.effective.at("bias")) / 2.0;
+    if (spot) {
+        EXPECT_NEAR(std::stod(frame.effective.at("bias_per_metre")), 2.0 * width, 0.02 * width);
+    }
+    double p = 0.0;
+    constexpr int kSteps = 1000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double t = (i + 0.5) / kSteps, end = (std::floor(t * kSpp) + 1.0) / kSpp;
+        const double bias = 2.0 * width * (spot ? 12.0 - kRise * t : 1.0);
+        p += std::max(0.0, end - t - bias / kRise) * kSpp / kSteps;
+    }
+    constexpr double kSamples = double(kSide) * kSide * kSpp;
+    EXPECT_GT(p, 0.02);
+    EXPECT_LT(p, 0.45);
+    EXPECT_NEAR(static_cast<double>(shadowed(frame)) / kSamples, p, 5.0 * std::sqrt(p * (1.0 - p) / kSamples) + 1e-3);
 }
 
 TEST_P(RisingSquareTest, DoesNotShadowItselfWhenDepthsAreMovedToItsTime) {

@@ -19,7 +19,7 @@ using Function = std::vector<glm::vec2>;  // Depths, and the visibility behind t
 class DsmTest : public StageTest {
 protected:
     /// The functions of 64 texels; samples: [sample][texel].
-    std::vector<Function> cluster(const std::vector<std::vector<float>>& samples, float extent) {
+    std::vector<Function> cluster(const std::vector<std::vector<float>>& samples, float extent, float extent_per_metre = 0.0f) {
         std::vector<float> flat;
         for (const auto& s : samples) flat.insert(flat.end(), s.begin(), s.end());
         const gpu::Buffer in = gpu::upload_new(device(), "samples", flat);
@@ -32,8 +32,10 @@ protected:
                                                    {"Clusters", &clusters},
                                                    {"Offsets", &offsets}};
             gpu::Recorder recorder(device());
-            recorder.dispatch("cluster", programs().get("methods/dsm/cluster", {fill, std::bit_cast<uint32_t>(extent)}), all,
-                              shared::ClusterParams{1, static_cast<uint32_t>(samples.size()), 100, 1000}, 1);
+            recorder.dispatch("cluster",
+                              programs().get("methods/dsm/cluster", {fill, std::bit_cast<uint32_t>(extent),
+                                                                     std::bit_cast<uint32_t>(extent_per_metre)}),
+                              all, shared::ClusterParams{1, static_cast<uint32_t>(samples.size()), 100, 1000}, 1);
             recorder.submit();
         };
         run(false, none, none);
@@ -64,6 +66,11 @@ TEST_F(DsmTest, OpacityIsTheShareOfSamplesThatGotThere) {
     }
     for (const Function& f : cluster({row(1.25f), row(1.0f)}, 0.125f)) EXPECT_EQ(f.size(), 2u);
     for (const Function& f : cluster({row(shared::kFarthest)}, 1.0f)) EXPECT_TRUE(f.empty());
+    // An eighth of the depth: 0.125 at 1, 0.5 at 4.
+    for (const Function& f : cluster({row(1.25f), row(4.25f), row(1.0f), row(4.0f)}, 0.0f, 0.125f)) {
+        ASSERT_EQ(f.size(), 3u);
+        EXPECT_EQ(f[2], glm::vec2(4.125f, 0.0f));
+    }
 }
 
 TEST_F(DsmTest, ClustersAreThoseOfSortedSamples) {
@@ -170,6 +177,20 @@ TEST_F(DsmFramesTest, MeansAndErrorsAreThoseOfTheSamples) {
         EXPECT_NEAR(double(spread[pixel]), std::sqrt(variance / std::max(1.0, n - 1.0)), 1e-3);
     }
     EXPECT_GT(graded, 100u);
+}
+
+// Parts of a wide spot's map that see nothing have no clusters.
+TEST_F(DsmFramesTest, EmptyPartsOfTheMapLeaveTheOthersAsTheyAre) {
+    Light& light = scene.lights.at(0);
+    light.kind = LightKind::spot;
+    light.outer_cone = 1.4f;
+    light.inner_cone = 0.0f;
+    settings.shadow_res = 1024;
+    settings.parameters["map-spp"] = 64;
+    const Frame frame = render("dsm");
+    EXPECT_GT(frame.stats.counts.at("clusters.0"), 1000u);
+    settings.parameters.clear();
+    EXPECT_LT(std::fabs(error(frame, render("exact"), false).bias), 0.03);
 }
 
 TEST_F(DsmFramesTest, BatchesDoNotMatterAndTooLittleMemoryIsSaid) {

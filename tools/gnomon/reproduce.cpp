@@ -137,8 +137,8 @@ void add_reproduce(CLI::App& app, Invocation& invocation) {
     command
         ->add_option_function<std::string>(
             "--repeat",
-            [options](const std::string& text) { options->measure.repeat = parse_count(text, "--repeat", 2, 1000); },
-            "Frames of each run, 2 or more, with seeds of their own")
+            [options](const std::string& text) { options->measure.repeat = parse_count(text, "--repeat", 3, 1000); },
+            "Frames of each run, 3 or more, with seeds of their own")
         ->type_name("N")
         ->default_str("3");
     command

@@ -7,8 +7,10 @@
 #include <algorithm>
 #include <cmath>
 #include <gnomon/error.hpp>
+#include <optional>
 
 #include "io/error_curve.hpp"
+#include "reproduce/errors.hpp"
 
 namespace gnomon::reproduce {
 namespace {
@@ -57,9 +59,16 @@ private:
                                                    true};
         const bool less = comparison.sign == Comparison::Sign::less;
         const std::string sign = less ? " < " : " > ";
-        const double lead = (right.estimate.value - left.estimate.value) * (less ? 1.0 : -1.0);
-        const double error = std::hypot(left.estimate.standard_error, right.estimate.standard_error);
+        Estimate difference{left.estimate.value - right.estimate.value,
+                            std::hypot(left.estimate.standard_error, right.estimate.standard_error)};
         Check result{experiment_.settings[left_ix].scene, left.name + sign + right.name, left.value + sign + right.value, {}};
+        if (const auto squares = comparison.right ? difference_of_squares(comparison.left, *comparison.right, left_ix, right_ix)
+                                                  : std::nullopt) {
+            difference = *squares;
+            result.measured += fmt::format("; pixel by pixel the squares differ by {:.2g} ± {:.1g}", difference.value,
+                                           difference.standard_error);
+        }
+        const double lead = difference.value * (less ? -1.0 : 1.0), error = difference.standard_error;
         if (!name_places && !experiment_.axis.empty()) result.scene += ", " + place(left_ix);
         result.verdict = std::abs(lead) <= kLeastDeviations * error ? Verdict::undecided
                          : lead > 0.0                               ? Verdict::holds
@@ -69,6 +78,19 @@ private:
         else if (lead == 0.0 && error == 0.0)
             result.verdict = Verdict::does_not_hold;
         return result;
+    }
+
+    // left - right, of metrics that are roots of mean squares, at one setting: seeds change both alike where both are of the
+    // same samples.
+    std::optional<Estimate> difference_of_squares(const Term& left, const Term& right, size_t left_ix, size_t right_ix) const {
+        if (left_ix != right_ix || left.metric != right.metric || !right.at_time_of.empty() || !left.over_run.empty() ||
+            !right.over_run.empty())
+            return std::nullopt;
+        const auto &a = run(left.run, left_ix).squares, &b = run(right.run, right_ix).squares;
+        if (!a.contains(left.metric) || !b.contains(left.metric)) return std::nullopt;
+        const double factor = right.factor / left.factor;
+        const PixelSquares squares = difference(a.at(left.metric), factor * factor, b.at(left.metric));
+        return over_seeds(squares, result_.settings[left_ix].settings.width);
     }
 
     // Where the curve takes as long as a run.
@@ -120,13 +142,20 @@ private:
     const std::string& label(const std::string& run) const { return run == kProposed ? proposed_ : run; }
 
     Estimate measured(Metric metric, const std::string& run, size_t setting_ix) const {
-        for (size_t i = 0; i < experiment_.runs.size(); ++i) {
-            if (experiment_.runs[i].label != label(run)) continue;
-            const auto& metrics = result_.settings[setting_ix].runs[i].metrics;
-            if (const auto found = metrics.find(metric); found != metrics.end()) return found->second;
-        }
-        throw Error(ErrorKind::internal, "a claim about what is not measured: " + info(metric).title + " of " + label(run),
-                    "figure " + figure_.name, "please report it");
+        const auto& metrics = this->run(run, setting_ix).metrics;
+        if (const auto found = metrics.find(metric); found != metrics.end()) return found->second;
+        throw not_measured(info(metric).title + " of " + label(run));
+    }
+
+    const RunResult& run(const std::string& name, size_t setting_ix) const {
+        for (size_t i = 0; i < experiment_.runs.size(); ++i)
+            if (experiment_.runs[i].label == label(name)) return result_.settings[setting_ix].runs[i];
+        throw not_measured(label(name));
+    }
+
+    Error not_measured(const std::string& what) const {
+        return {ErrorKind::internal, "a claim about what is not measured: " + what, "figure " + figure_.name,
+                "please report it"};
     }
 
     const Figure& figure_;

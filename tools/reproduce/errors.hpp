@@ -3,7 +3,6 @@
 #pragma once
 
 #include <gnomon/render.hpp>
-#include <optional>
 #include <vector>
 
 #include "reproduce/metric.hpp"
@@ -21,11 +20,21 @@ struct FalseShare {
 /// Both frames hold the samples of the same settings; samples that hit different triangles are left out.
 FalseShare false_share(const Frame& frame, const Frame& reference);
 
-/// RMSE of the visibility of all lights, over the pixels where both frames have hits.
-double visibility_error(const Frame& frame, const Frame& reference);
+/// A square of each pixel, by several seeds; NaN where one of them has no hit.
+struct PixelSquares {
+    std::vector<double> all;
+    std::vector<std::vector<double>> without;  ///< Each of the seeds.
+};
 
-/// sqrt(error^2 - noise^2), 0 where noise is all there is.
-Estimate without_noise(const Estimate& error, const Estimate& noise);
+/// a - factor * b; both of the same seeds.
+PixelSquares difference(const PixelSquares& a, double factor, const PixelSquares& b);
+
+/// The mean over pixels, rows of `width`. Its standard error is what other seeds would change, by the jackknife over seeds (too
+/// large, up to twice, where noise is all there is); squares of 16 x 16 pixels are taken for independent.
+Estimate over_seeds(const PixelSquares& squares, uint32_t width);
+
+/// The root of a mean square, 0 of one below 0.
+Estimate root_of(const Estimate& square);
 
 /// Mean over lights of frame - reference, per pixel; 0 where one of them has no hit.
 std::vector<double> visibility_difference(const Frame& frame, const Frame& reference);
@@ -33,19 +42,30 @@ std::vector<double> visibility_difference(const Frame& frame, const Frame& refer
 /// FLIP of the pictures, per pixel.
 std::vector<double> flip_of(const Frame& frame, const Frame& reference);
 
-/// How visibility varies between frames of different seeds.
-class VisibilityVariance {
+/// Visibility in frames of different seeds, at least 3; squares are means over the lights.
+class VisibilityStatistics {
 public:
     void add(const Frame& frame);
 
-    /// Root of the mean variance, over pixels that have hits in all frames and all lights. Its standard error takes pixels for
-    /// independent. Nothing of fewer than two frames.
-    std::optional<Estimate> noise() const;
+    /// The variance of a frame's pixel.
+    PixelSquares noise() const;
+
+    /// A frame's error against the reference.
+    PixelSquares error(const Frame& reference) const;
+
+    /// Of what more frames would not cure: estimates without bias of the square of the difference of the expected visibility
+    /// and the reference's.
+    PixelSquares systematic(const Frame& reference) const;
 
 private:
-    uint32_t frames_ = 0;
-    std::vector<double> sums_, squares_;  // Of pixels, light after light.
-    std::vector<uint32_t> hits_;          // Frames in which the pixel has hits.
+    template <typename F>
+    PixelSquares each(const F& square) const;
+    template <typename F>
+    PixelSquares against(const Frame& reference, const F& square) const;
+
+    uint32_t lights_ = 0;
+    std::vector<std::vector<float>> frames_;  // Of pixels, light after light.
+    std::vector<uint32_t> hits_;              // Frames in which the pixel has hits.
 };
 
 }  // namespace gnomon::reproduce

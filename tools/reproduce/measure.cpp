@@ -81,8 +81,7 @@ public:
             values_[Metric::false_shadow].push_back(share.shadow);
             values_[Metric::false_light].push_back(share.light);
             values_[Metric::excess_shadow].push_back(share.shadow - share.light);
-            values_[Metric::error].push_back(visibility_error(frame, setting.converged));
-            variance_.add(frame);
+            statistics_.add(frame);
             std::vector<double> flip = flip_of(frame, setting.converged);
             values_[Metric::flip].push_back(mean(flip));
             if (result_.flip.empty()) result_.flip = std::move(flip);
@@ -92,11 +91,14 @@ public:
         if (result_.frame.channels.empty()) result_.frame = std::move(frame);
     }
 
-    RunResult result() {
+    RunResult result(const SettingResult& setting) {
         for (const auto& [metric, values] : values_) result_.metrics[metric] = estimate(values);
-        if (const auto noise = variance_.noise()) {
-            result_.metrics[Metric::noise] = *noise;
-            result_.metrics[Metric::systematic] = without_noise(result_.metrics.at(Metric::error), *noise);
+        if (values_.contains(Metric::flip)) {
+            result_.squares = {{Metric::error, statistics_.error(setting.converged)},
+                               {Metric::noise, statistics_.noise()},
+                               {Metric::systematic, statistics_.systematic(setting.converged)}};
+            for (const auto& [metric, squares] : result_.squares)
+                result_.metrics[metric] = root_of(over_seeds(squares, setting.settings.width));
         }
         for (const std::string& name : order_) {
             const auto& [seconds, map_seconds] = stages_.at(name);
@@ -110,7 +112,7 @@ private:
     std::map<Metric, std::vector<double>> values_;
     std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> stages_;
     std::vector<std::string> order_;  // In which the stages ran first.
-    VisibilityVariance variance_;
+    VisibilityStatistics statistics_;
 };
 
 // Programs are compiled and memory is touched before anything is timed.
@@ -183,7 +185,7 @@ std::optional<ExperimentResult> measure(Renderer& renderer, const Experiment& ex
             }
         }
         for (size_t i = 0; i < runs.size(); ++i) {
-            at.runs.push_back(runs[i].result());
+            at.runs.push_back(runs[i].result(at));
             if (!experiment.texel_ranges) continue;
             RenderSettings settings = settings_of(at.settings, experiment.runs[i]);
             settings.keep_texel_ranges = true;

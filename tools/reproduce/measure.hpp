@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "reproduce/errors.hpp"
 #include "reproduce/figure.hpp"
 
 namespace gnomon::reproduce {
 
 struct MeasureOptions {
     double scale = 1.0;            ///< Of the sides of pictures, and of maps but where Experiment::full_maps.
-    uint32_t repeat = 3;           ///< Frames of each run, at least 2, with seeds 0, 1, ...
+    uint32_t repeat = 3;           ///< Frames of each run, at least 3, with seeds 0, 1, ...
     uint32_t reference_spp = 128;  ///< Of the converged reference.
 };
 
@@ -29,8 +30,9 @@ struct StageMean {
 struct RunResult {
     std::map<Metric, Estimate> metrics;
     std::vector<StageMean> stages;
-    Frame frame;               ///< Of seed 0, without samples.
-    std::vector<double> flip;  ///< Of that frame, per pixel; empty without a reference.
+    Frame frame;                             ///< Of seed 0, without samples.
+    std::vector<double> flip;                ///< Of that frame, per pixel; empty without a reference.
+    std::map<Metric, PixelSquares> squares;  ///< Of those metrics that are roots of their mean.
 };
 
 struct SettingResult {

@@ -16,7 +16,8 @@ enum class Metric {
                     ///< not.
     error,          ///< R: RMSE of visibility per pixel against the converged reference.
     noise,          ///< R: root mean over pixels of the variance of visibility between seeds.
-    systematic,     ///< R: of the error, what is not noise: sqrt(error^2 - noise^2), what more frames would not cure.
+    systematic,     ///< R: of the error, what is not noise, what more frames would not cure: root over pixels of the mean of
+                    ///< (expected visibility - reference's)^2. Like the two before it compared pixel by pixel.
     flip,           ///< R: mean FLIP against the converged reference.
     seconds,        ///< On the device, all stages.
     map_seconds,    ///< Of these, what makes the lights' maps.

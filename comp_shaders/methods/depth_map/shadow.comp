@@ -8,23 +8,22 @@
 // Based on: Akenine-Moller et al. 2007, "Stochastic rasterization using time-continuous triangles", section 5; motion: Andersson et al. 2015, section 5.1, eq. 12
 #extension GL_GOOGLE_include_directive : require
 #include "common/shadow_test.glsl"
+#include "common/bias.glsl"
 
-layout(constant_id = 6) const float kBias = 0.0;  // Metres.
-layout(constant_id = 7) const bool kMotion = false;
-layout(constant_id = 8) const uint kMapSeed = 0u;
+layout(constant_id = 8) const bool kMotion = false;
+layout(constant_id = 9) const uint kMapSeed = 0u;
 layout(binding = 16) uniform samplerBuffer map_samples;  // Depth in metres, and motion in metres per shutter.
 
 void main() {
     uint i = take_hit();
     ShadowTest test = shadow_test(i);
     vec2 map_sample = texelFetch(map_samples, test.here ? int(test.list - params.range_first) : 0).xy;
-    float depth = kOrthographic ? test.depth : -1.0 / test.depth;
     if (kMotion) {
         uint stratum = cell_of(test.receiver.t, params.light_cell_count);
         vec3 point = sample_point(pixel_hash(test.texel.x, test.texel.y, kMapSeed), test.texel.x, test.texel.y, stratum, params.light_cell_count);
         map_sample.x += map_sample.y * (test.receiver.t - point.z);
     }
-    bool shadowed = test.here && map_sample.x < depth - kBias;
+    bool shadowed = test.here && map_sample.x < biased_metres(test.depth);
     write_lit(i, test, shadowed);
     if (kCount) add_shadow_counts(i, 1u, test.here ? 1u : 0u, test.here);
 }

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Purpose: a texel's visibility function from its samples: those that lie within kExtent of the nearest make a cluster, and so on with what is deeper. A cluster's depth
+// Purpose: a texel's visibility function from its samples: those that lie within an extent of the nearest make a cluster, and so on with what is deeper. A cluster's depth
 //          is its samples' mean; its opacity is their share of the samples that no nearer cluster has stopped. Count, or fill after the scan.
 // Reads:   map_samples (metres; per tile, sample and texel), offsets (fill)
 // Writes:  Counts (clusters per texel) or Clusters (metres, visibility behind it), Offsets (where each texel's clusters begin)
@@ -11,7 +11,8 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
-layout(constant_id = 1) const float kExtent = 0.0;  // Metres.
+layout(constant_id = 1) const float kExtent = 0.0;          // Metres,
+layout(constant_id = 2) const float kExtentPerMetre = 0.0;  // and so many more for each metre of the nearest sample's depth.
 layout(binding = 0) uniform samplerBuffer map_samples;
 layout(binding = 1) uniform usamplerBuffer scanned;
 layout(binding = 2, scalar) writeonly buffer Counts { uint counts[]; };
@@ -41,7 +42,7 @@ void main() {
         } while (s < params.spp);
         more = nearest < kFarthest;
         if (more) {
-            float end = nearest + kExtent, sum = 0.0, held = 0.0;
+            float end = nearest + kExtent + kExtentPerMetre * nearest, sum = 0.0, held = 0.0;
             s = 0u;
             do {
                 float z = texelFetch(map_samples, base + int(s * kTileTexels)).x;

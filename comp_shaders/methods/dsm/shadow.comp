@@ -7,8 +7,8 @@
 // Based on: Lokovic and Veach 2000, "Deep shadow maps", section 3; motion as in Andersson et al. 2015, "Filtered stochastic shadow mapping", section 2
 #extension GL_GOOGLE_include_directive : require
 #include "common/shadow_test.glsl"
+#include "common/bias.glsl"
 
-layout(constant_id = 6) const float kBias = 0.0;  // Metres.
 layout(binding = 16) uniform usamplerBuffer offsets;
 layout(binding = 17) uniform samplerBuffer clusters;
 
@@ -18,7 +18,7 @@ void main() {
     int list = test.here ? int(test.list) : 0;
     uint k = texelFetch(offsets, list).x;
     uint end = texelFetch(offsets, list + 1).x;
-    float limit = (kOrthographic ? test.depth : -1.0 / test.depth) - kBias;
+    float limit = biased_metres(test.depth);
     float visibility = 1.0;
     uint visited = 0u, tested = 0u;
     bool more = test.here && k < end;

@@ -2,14 +2,13 @@
 // Do the ranges of a hit's list occlude it? One of another triangle whose time includes the hit's does where the depth between its entry and its exit, interpolated
 // linearly, is nearer by more than the bias. Needs: GN_RANGE_EXIT, common/shadow_test.glsl, common/list.glsl
 // Based on: Hong and Oh 2018, "Motion-blurred shadows utilizing a depth-time ranges shadow map", section 3.3
-
-layout(constant_id = 6) const float kBias = 0.0;  // Metres.
+#include "common/bias.glsl"
 
 // Hit `i` of the queue; its list is walked if `walk`.
 bool occluded_by_ranges(uint i, ShadowTest test, bool walk, inout uint visited, inout uint tested) {
     float t = test.receiver.t;
     // Ranges hold metres along the view's axis, which a perspective view's depth is not.
-    float limit = (kOrthographic ? test.limit : -1.0 / test.limit) - kBias;
+    float limit = biased_metres(test.limit);
     float metres_near = kOrthographic ? params.depth_near : -1.0 / params.depth_near;
     bool occluded = false;
     ListIterator it = layout_begin(test.here ? test.list : params.item_first * kTileTexels);

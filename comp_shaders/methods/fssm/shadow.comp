@@ -8,20 +8,20 @@
 // Based on: Andersson et al. 2015, "Filtered stochastic shadow mapping using a layered approach", sections 4.2 and 5
 #extension GL_GOOGLE_include_directive : require
 #include "common/shadow_test.glsl"
+#include "common/bias.glsl"
 #include "math/footprint.h"
 #include "math/fssm.h"
 
-layout(constant_id = 6) const float kBias = 0.0;         // Metres.
-layout(constant_id = 7) const uint kTile = 8u;           // As in methods/fssm/window.glsl, and so are the next four.
-layout(constant_id = 8) const uint kWindow = 16u;
-layout(constant_id = 9) const uint kGrid = 16u;
-layout(constant_id = 10) const uint kLayers = 4u;
-layout(constant_id = 11) const uint kTuples = 341u;
-layout(constant_id = 12) const uint kLevels = 5u;        // Of a layer's grid: the filter is widened through them. 1: it is not.
-layout(constant_id = 13) const bool kFootprint = true;   // Else the hit is a point in space and time.
-layout(constant_id = 14) const bool kTent = true;        // The filter along v.
-layout(constant_id = 15) const bool kNeighbours = true;  // Lookups near a tile's border may go to the neighbour.
-layout(constant_id = 16) const bool kViewsMove = false;  // The camera or the light.
+layout(constant_id = 8) const uint kTile = 8u;           // As in methods/fssm/window.glsl, and so are the next four.
+layout(constant_id = 9) const uint kWindow = 16u;
+layout(constant_id = 10) const uint kGrid = 16u;
+layout(constant_id = 11) const uint kLayers = 4u;
+layout(constant_id = 12) const uint kTuples = 341u;
+layout(constant_id = 13) const uint kLevels = 5u;        // Of a layer's grid: the filter is widened through them. 1: it is not.
+layout(constant_id = 14) const bool kFootprint = true;   // Else the hit is a point in space and time.
+layout(constant_id = 15) const bool kTent = true;        // The filter along v.
+layout(constant_id = 16) const bool kNeighbours = true;  // Lookups near a tile's border may go to the neighbour.
+layout(constant_id = 17) const bool kViewsMove = false;  // The camera or the light.
 layout(binding = 16) uniform samplerBuffer layers;
 layout(binding = 17) uniform samplerBuffer tuples;
 layout(binding = 18) uniform samplerBuffer view_keys;    // Per key: the camera's rows (x, y, metres) and origin, the light's (x, y, w) and origin.
@@ -72,7 +72,7 @@ void main() {
     uint i = take_hit();
     ShadowTest test = shadow_test(i);
     float t = test.receiver.t;
-    float depth = (kOrthographic ? test.depth : -1.0 / test.depth) - kBias;
+    float depth = biased_metres(test.depth);
 
     // The tile whose layers are asked.
     vec2 extent = vec2(float(params.light_width), float(params.light_height));

@@ -68,6 +68,36 @@ TEST_F(Claims, CloseFiguresAreUndecided) {
     EXPECT_EQ(verdicts(check({{.left = new_seconds, .right = old_seconds}}))[2], Verdict::does_not_hold);
 }
 
+// Both err by 0.5 give or take 0.1, and for each seed the new one by a little more.
+TEST(SystematicClaims, AreDecidedPixelByPixel) {
+    auto experiment = std::make_shared<Experiment>();
+    experiment->runs = {{.method = "old"}, {.method = "new", .proposed = true}};
+    experiment->settings = {{.scene = "a", .make = {}}};
+    ExperimentResult result;
+    SettingResult& setting = result.settings.emplace_back();
+    setting.settings.width = 2;
+    setting.runs.resize(2);
+    const PixelSquares old_squares{{0.25, 0.0}, {{0.29, 0.0}, {0.25, 0.01}, {0.21, 0.0}}};
+    const PixelSquares more{{0.002, 0.001}, {{0.002, 0.001}, {0.002, 0.0012}, {0.002, 0.0008}}};
+    setting.runs[0].squares[Metric::systematic] = old_squares;
+    setting.runs[1].squares[Metric::systematic] = difference(old_squares, -1.0, more);
+    for (RunResult& run : setting.runs) run.metrics[Metric::systematic] = {0.5, 0.1};
+    const auto check = [&](double factor) {
+        const Comparison worse{.left = {Metric::systematic}, .sign = greater, .right = Term{Metric::systematic, "old", factor}};
+        const Figure figure{.name = "0000-1",
+                            .title = "",
+                            .shows = "",
+                            .experiment = experiment,
+                            .claims = {{.quote = "It is worse.", .source = "", .comparisons = {worse}}}};
+        return check_claims(figure, result).at(0).checks.at(0);
+    };
+    EXPECT_EQ(check(1.0).verdict, Verdict::holds);
+    EXPECT_THAT(check(1.0).measured, testing::HasSubstr("pixel by pixel the squares differ by 0.0015 ± "));
+    EXPECT_EQ(check(1.5).verdict, Verdict::does_not_hold);
+    setting.runs[1].squares = setting.runs[0].squares;
+    EXPECT_EQ(check(1.0).verdict, Verdict::does_not_hold);
+}
+
 TEST_F(Claims, OneUndecidedCheckLeavesTheClaimUndecided) {
     seconds[3] = {{1.0, 0.01}, {1.001, 0.01}};
     EXPECT_EQ(check({{.left = new_seconds, .right = old_seconds}})[0].verdict, Verdict::undecided);

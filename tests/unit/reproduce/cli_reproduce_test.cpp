@@ -56,7 +56,7 @@ TEST_F(CliReproduceTest, FolderThatCannotBeMade) {
 TEST_F(CliReproduceTest, SmallestFigures) {
     if (!has_device()) GTEST_SKIP() << "skipped: no usable Vulkan device";
     const CommandResult result =
-        reproduce({"2015-13", "2015-12", "-o", "out", "--scale=0.04", "--repeat=2", "--reference-spp=8", "--quiet"});
+        reproduce({"2015-13", "2015-12", "-o", "out", "--scale=0.04", "--repeat=3", "--reference-spp=8", "--quiet"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
     EXPECT_EQ(result.err, "");
     EXPECT_THAT(result.out, HasSubstr("2015-13: out/2015-13.html"));
