@@ -8,6 +8,8 @@
 #include <new>
 #include <string>
 
+#include "parse_error.hpp"
+
 namespace gnomon::tools {
 
 struct Tool {
@@ -32,11 +34,11 @@ int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::
             app.parse(argc, argv);
         } catch (const CLI::Success& request) {  // --help or --version
             return app.exit(request);
+        } catch (const CLI::ParseError& error) {
+            return fail(parse_error_text(app, error) + ", command line; see '" + tool.name + " --help'", ErrorKind::usage);
         }
         run(options);
         return 0;
-    } catch (const CLI::ParseError& error) {
-        return fail(std::string(error.what()) + ", command line; see '" + tool.name + " --help'", ErrorKind::usage);
     } catch (const Error& error) {
         return fail(error.what(), error.kind());
     } catch (const std::bad_alloc&) {

@@ -19,6 +19,9 @@ GN_FN float unit_float(uint bits) { return float(bits >> 8u) * (1.0f / 16777216.
 // The start of a pixel's own lattice; every pixel and seed has another.
 GN_FN uint pixel_hash(uint x_px, uint y_px, uint seed) { return hash_pcg(x_px + hash_pcg(y_px + hash_pcg(seed))); }
 
+// Of the samples of a light's view.
+GN_FN uint light_seed(uint seed, uint light) { return hash_pcg(seed ^ hash_pcg(light + 1u)); }
+
 // Sample `s` of `spp` in pixel (x_px, y_px): (x, y) in pixels, t in the shutter. x_px <= x <= x_px + 1 (closed: float
 // rounding), likewise y; s / spp <= t < (s + 1) / spp. `pixel` is pixel_hash(x_px, y_px, seed). The sample depends on nothing
 // else, so any split of the samples over runs gives the same ones.

@@ -122,8 +122,10 @@ struct MapDepthParams {
 struct ClusterParams {
     uint tile_count;  // Of the batch.
     uint spp;
-    uint texel_first;    // Its place among the map's.
-    uint cluster_first;  // The number of its first cluster.
+    uint texel_first;        // Its place among the map's.
+    uint cluster_first;      // The number of its first cluster.
+    float extent;            // Of a cluster: metres,
+    float extent_per_metre;  // and so many more for each metre of its nearest sample's depth.
 };
 
 // methods/fssm/layers and reproject. Tiles are the method's own, rows of tiles_x.

@@ -33,31 +33,29 @@ Sampling map_sampling(const LightContext& light, DepthMapKind kind) {
     const bool sliced = kind == DepthMapKind::slices;
     const double spp =
         sliced ? light.parameter("slices").value_or(3000) : light.parameter("map-spp").value_or(light.settings.spp);
-    return {static_cast<uint32_t>(spp), map_seed(light), sliced};
+    return {static_cast<uint32_t>(spp), shared::light_seed(light.settings.seed, light.light_ix), sliced};
 }
 
-uint32_t map_seed(const LightContext& light) {
-    return shared::hash_pcg(light.settings.seed ^ shared::hash_pcg(light.light_ix + 1));
-}
-
-std::vector<uint32_t> AxisLength::constants() const {
-    return {std::bit_cast<uint32_t>(metres), std::bit_cast<uint32_t>(per_metre)};
-}
+std::vector<uint32_t> Bias::constants() const { return {std::bit_cast<uint32_t>(metres), std::bit_cast<uint32_t>(texels)}; }
 
 std::pair<std::string, std::string> AxisLength::effective(const std::string& name) const {
     if (per_metre != 0.0f) return {name + "_per_metre", number_text(static_cast<double>(per_metre))};
     return {name, number_text(static_cast<double>(metres))};
 }
 
-AxisLength map_bias(const LightContext& light, double texels) {
-    if (const std::optional<double> metres = light.parameter("bias")) return {static_cast<float>(*metres)};
-    // A surface that the light meets at 45 degrees is sqrt(2) texels deeper in one corner of a texel than in the other.
-    const auto length = static_cast<float>(texels / std::min(light.view.scale_x, light.view.scale_y));
-    return light.view.orthographic ? AxisLength{length, 0.0f} : AxisLength{0.0f, length};
+AxisLength Bias::length(const View& light) const {
+    const float widths = texels / std::min(light.scale_x, light.scale_y);
+    return light.orthographic ? AxisLength{metres + widths, 0.0f} : AxisLength{metres, widths};
 }
 
-std::map<std::string, std::string> map_effective(const Sampling& sampling, const AxisLength& bias) {
-    return {{sampling.sliced ? "slices" : "map_spp", std::to_string(sampling.spp)}, bias.effective("bias")};
+Bias map_bias(const LightContext& light, double texels) {
+    if (const std::optional<double> metres = light.parameter("bias")) return {static_cast<float>(*metres), 0.0f};
+    // A surface that the light meets at 45 degrees is sqrt(2) texels deeper in one corner of a texel than in the other.
+    return {0.0f, static_cast<float>(texels)};
+}
+
+std::map<std::string, std::string> map_effective(const LightContext& light, const Sampling& sampling, const Bias& bias) {
+    return {{sampling.sliced ? "slices" : "map_spp", std::to_string(sampling.spp)}, bias.length(light.view).effective("bias")};
 }
 
 void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bins& bins, Tracer& tracer,
@@ -133,7 +131,7 @@ std::vector<gpu::Binding> DepthMap::read_bindings() const {
 
 std::vector<uint32_t> DepthMap::test_constants() const {
     std::vector<uint32_t> all = map_bias(light_).constants();
-    all.insert(all.end(), {motion() ? 1u : 0u, sampling_.seed});
+    all.push_back(motion() ? 1u : 0u);
     return all;
 }
 

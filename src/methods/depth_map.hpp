@@ -15,14 +15,22 @@ enum class DepthMapKind {
     slices,        ///< accumulate
 };
 
-/// A length along the light's axis, at a depth of so many metres: metres + per_metre * depth.
+/// A length along a light's axis, at a depth of so many metres: metres + per_metre * depth.
 struct AxisLength {
     float metres = 0.0f;
     float per_metre = 0.0f;
 
-    std::vector<uint32_t> constants() const;  ///< Both, as shaders take them.
     /// The one that is not 0, as `name` or `name`_per_metre.
     std::pair<std::string, std::string> effective(const std::string& name) const;
+};
+
+/// What is subtracted from a hit's depth (common/bias.glsl): metres and texels' widths.
+struct Bias {
+    float metres = 0.0f;
+    float texels = 0.0f;
+
+    std::vector<uint32_t> constants() const;  ///< Both, as shaders take them.
+    AxisLength length(const View& light) const;
 };
 
 /// The bias of all methods that compare depths.
@@ -35,14 +43,11 @@ std::vector<Parameter> depth_map_parameters(DepthMapKind kind);
 /// light's own.
 Sampling map_sampling(const LightContext& light, DepthMapKind kind);
 
-/// A seed of the light's own.
-uint32_t map_seed(const LightContext& light);
-
-/// Metres: bias, else so many texels' widths: those at the hit's depth.
-AxisLength map_bias(const LightContext& light, double texels = 2.0);
+/// The parameter bias, else so many texels.
+Bias map_bias(const LightContext& light, double texels = 2.0);
 
 /// map_spp (slices) and bias, as they are used.
-std::map<std::string, std::string> map_effective(const Sampling& sampling, const AxisLength& bias);
+std::map<std::string, std::string> map_effective(const LightContext& light, const Sampling& sampling, const Bias& bias);
 
 /// Trace a batch of a light's samples and write them to elements [first, ...) of `samples`, of so many floats: 1, the depth; 2,
 /// with the motion along the axis; 4, with the motion in x and y before it.
@@ -56,7 +61,7 @@ public:
     ItemOrder order() const override { return {sampling_.spp, 1, tile_count_}; }
     uint32_t item_count() const override { return sampling_.spp * tile_count_; }
     std::map<std::string, uint64_t> counts() const override;
-    std::map<std::string, std::string> effective() const override { return map_effective(sampling_, map_bias(light_)); }
+    std::map<std::string, std::string> effective() const override { return map_effective(light_, sampling_, map_bias(light_)); }
     std::vector<Band> bands(uint64_t bytes) const override;
     void fill(const Band& band) override;
     std::vector<gpu::Binding> read_bindings() const override;

@@ -5,6 +5,7 @@
 #include <bit>
 #include <gnomon/error.hpp>
 
+#include "math/sample.h"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
 
@@ -31,7 +32,7 @@ public:
                 {"map_bytes", offsets_.bytes() + cluster_count_ * sizeof(glm::vec2)}};
     }
     std::map<std::string, std::string> effective() const override {
-        std::map<std::string, std::string> all = map_effective(sampling_, map_bias(light_));
+        std::map<std::string, std::string> all = map_effective(light_, sampling_, map_bias(light_));
         all.insert(dsm_extent(light_).effective("cluster"));
         return all;
     }
@@ -94,12 +95,13 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
 DeepShadowMap::Piece DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch) {
     gpu::Device& device = light_.device;
     const uint32_t texels = batch.tile_count * shared::kTileTexels;
-    const std::vector<uint32_t> extent = dsm_extent(light_).constants();
+    const AxisLength extent = dsm_extent(light_);
     const gpu::Buffer counts = device.allocate("cluster_counts", scan_bytes(texels));
-    const shared::ClusterParams params{batch.tile_count, sampling_.spp, batch.tile_first * shared::kTileTexels,
-                                       static_cast<uint32_t>(cluster_count_)};
+    const shared::ClusterParams params{
+        batch.tile_count, sampling_.spp,   batch.tile_first * shared::kTileTexels, static_cast<uint32_t>(cluster_count_),
+        extent.metres,    extent.per_metre};
     const auto record = [&](gpu::Recorder& recorder, bool fill, const gpu::Buffer& clusters) {
-        recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill, extent[0], extent[1]}),
+        recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill}),
                           bindings({{"map_samples", &samples, Texel::r32_float},
                                     {"scanned", fill ? &counts : &unbound_, Texel::r32_uint},
                                     {"Counts", fill ? &unbound_ : &counts},
@@ -132,12 +134,13 @@ std::vector<Parameter> dsm_parameters() {
 }
 
 Sampling dsm_sampling(const LightContext& light) {
-    return {static_cast<uint32_t>(light.parameter("map-spp").value_or(128)), map_seed(light)};
+    return {static_cast<uint32_t>(light.parameter("map-spp").value_or(128)),
+            shared::light_seed(light.settings.seed, light.light_ix)};
 }
 
 AxisLength dsm_extent(const LightContext& light) {
     if (const std::optional<double> metres = light.parameter("cluster")) return {static_cast<float>(*metres)};
-    const AxisLength bias = map_bias(light);
+    const AxisLength bias = map_bias(light).length(light.view);
     return {0.5f * bias.metres, 0.5f * bias.per_metre};
 }
 

@@ -97,7 +97,7 @@ std::map<std::string, uint64_t> Fssm::counts() const {
 }
 
 std::map<std::string, std::string> Fssm::effective() const {
-    std::map<std::string, std::string> all = map_effective(sampling_, bias_);
+    std::map<std::string, std::string> all = map_effective(light_, sampling_, bias_);
     all["layers"] = std::to_string(layer_count_);
     all["tile"] = std::to_string(sizes_.tile);
     for (const char* name : {"footprint", "widen", "tent", "neighbours"}) all[name] = given(light_, name) ? "1" : "0";

@@ -50,7 +50,7 @@ private:
     const LightContext& light_;
     const Bins& bins_;
     Sampling sampling_;
-    AxisLength bias_;
+    Bias bias_;
     Sizes sizes_;
     uint32_t layer_count_, level_count_, tuple_count_;
     uint32_t tiles_x_, tiles_y_;  ///< The method's tiles.

@@ -35,7 +35,8 @@ public:
                                             culls_back_faces(light))
                             : CoverageMap()),
           ranges_(s_buffer(light, bins, covered ? &coverage_.coverage : nullptr)),
-          bias_(map_bias(light)) {}
+          bias_(map_bias(light)),
+          bias_length_(bias_.length(light.view)) {}
 
     ItemOrder order() const override { return ranges_.order(); }
     uint32_t item_count() const override { return ranges_.item_count(); }
@@ -52,7 +53,7 @@ public:
         }
         return counts;
     }
-    std::map<std::string, std::string> effective() const override { return {bias_.effective("bias")}; }
+    std::map<std::string, std::string> effective() const override { return {bias_length_.effective("bias")}; }
     std::vector<gpu::Binding> read_bindings() const override {
         std::vector<gpu::Binding> all = ranges_.read_bindings();
         if (coverage_.coverage) all.push_back({"coverage", &coverage_.coverage, gpu::Texel::r32_uint});
@@ -63,7 +64,8 @@ public:
 private:
     CoverageMap coverage_;
     SBuffer ranges_;
-    AxisLength bias_;
+    Bias bias_;
+    AxisLength bias_length_;
 };
 
 void check_culling(const LightContext& light) {

@@ -32,10 +32,9 @@ protected:
                                                    {"Clusters", &clusters},
                                                    {"Offsets", &offsets}};
             gpu::Recorder recorder(device());
-            recorder.dispatch("cluster",
-                              programs().get("methods/dsm/cluster", {fill, std::bit_cast<uint32_t>(extent),
-                                                                     std::bit_cast<uint32_t>(extent_per_metre)}),
-                              all, shared::ClusterParams{1, static_cast<uint32_t>(samples.size()), 100, 1000}, 1);
+            recorder.dispatch(
+                "cluster", programs().get("methods/dsm/cluster", {fill}), all,
+                shared::ClusterParams{1, static_cast<uint32_t>(samples.size()), 100, 1000, extent, extent_per_metre}, 1);
             recorder.submit();
         };
         run(false, none, none);

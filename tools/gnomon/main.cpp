@@ -10,6 +10,7 @@
 #include <new>
 
 #include "command.hpp"
+#include "parse_error.hpp"
 
 namespace {
 
@@ -39,7 +40,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         const auto commands = app.get_subcommands();
         const std::string name = commands.empty() ? "gnomon" : "gnomon " + commands.front()->get_name();
-        throw Error(ErrorKind::usage, error.what(), "command line", "see '" + name + " --help'");
+        throw Error(ErrorKind::usage, gnomon::tools::parse_error_text(app, error), "command line", "see '" + name + " --help'");
     }
     if (!invocation.run) throw Error(ErrorKind::usage, "no command given", "command line", "see 'gnomon --help'");
     spdlog::set_level(invocation.quiet ? spdlog::level::err : invocation.verbose ? spdlog::level::debug : spdlog::level::info);

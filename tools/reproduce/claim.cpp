@@ -15,9 +15,6 @@
 namespace gnomon::reproduce {
 namespace {
 
-// Two sides closer than this many standard errors of their difference are not told apart.
-constexpr double kLeastDeviations = 2.0;
-
 // One side of a comparison: its figure, and how both are written.
 struct Side {
     Estimate estimate;
@@ -59,20 +56,20 @@ private:
                                                    true};
         const bool less = comparison.sign == Comparison::Sign::less;
         const std::string sign = less ? " < " : " > ";
-        Estimate difference{left.estimate.value - right.estimate.value,
-                            std::hypot(left.estimate.standard_error, right.estimate.standard_error)};
         Check result{experiment_.settings[left_ix].scene, left.name + sign + right.name, left.value + sign + right.value, {}};
-        if (const auto squares = comparison.right ? difference_of_squares(comparison.left, *comparison.right, left_ix, right_ix)
-                                                  : std::nullopt) {
-            difference = *squares;
+        Estimate difference = unpaired_difference(left.estimate, right.estimate);
+        if (const auto of_squares = difference_of_squares(comparison, left_ix, right_ix)) {
+            difference = *of_squares;
             result.measured += fmt::format("; pixel by pixel the squares differ by {:.2g} ± {:.1g}", difference.value,
                                            difference.standard_error);
+        } else if (const auto by_seed = difference_by_seed(comparison, left_ix, right_ix)) {
+            difference = *by_seed;
         }
         const double lead = difference.value * (less ? -1.0 : 1.0), error = difference.standard_error;
         if (!name_places && !experiment_.axis.empty()) result.scene += ", " + place(left_ix);
-        result.verdict = std::abs(lead) <= kLeastDeviations * error ? Verdict::undecided
-                         : lead > 0.0                               ? Verdict::holds
-                                                                    : Verdict::does_not_hold;
+        result.verdict = std::abs(lead) <= deviations_by_chance(difference.freedom) * error ? Verdict::undecided
+                         : lead > 0.0                                                       ? Verdict::holds
+                                                                                            : Verdict::does_not_hold;
         if (!left.known || !right.known) result.verdict = Verdict::undecided;
         // Equal and exact: neither is less.
         else if (lead == 0.0 && error == 0.0)
@@ -80,17 +77,47 @@ private:
         return result;
     }
 
-    // left - right, of metrics that are roots of mean squares, at one setting: seeds change both alike where both are of the
-    // same samples.
-    std::optional<Estimate> difference_of_squares(const Term& left, const Term& right, size_t left_ix, size_t right_ix) const {
-        if (left_ix != right_ix || left.metric != right.metric || !right.at_time_of.empty() || !left.over_run.empty() ||
-            !right.over_run.empty())
+    static Estimate unpaired_difference(const Estimate& left, const Estimate& right) {
+        const uint32_t least = std::min(left.freedom, right.freedom), most = std::max(left.freedom, right.freedom);
+        return {left.value - right.value, std::hypot(left.standard_error, right.standard_error), least > 0 ? least : most};
+    }
+
+    // left - right, of metrics that are roots of mean squares, at one setting. What seeds change in both alike does not count:
+    // both are of the same samples.
+    std::optional<Estimate> difference_of_squares(const Comparison& comparison, size_t left_ix, size_t right_ix) const {
+        if (!comparison.right || left_ix != right_ix) return std::nullopt;
+        const Term &left = comparison.left, &right = *comparison.right;
+        if (left.metric != right.metric || !right.at_time_of.empty() || !left.over_run.empty() || !right.over_run.empty())
             return std::nullopt;
         const auto &a = run(left.run, left_ix).squares, &b = run(right.run, right_ix).squares;
         if (!a.contains(left.metric) || !b.contains(left.metric)) return std::nullopt;
         const double factor = right.factor / left.factor;
         const PixelSquares squares = difference(a.at(left.metric), factor * factor, b.at(left.metric));
         return over_seeds(squares, result_.settings[left_ix].settings.width);
+    }
+
+    // left - right, seed by seed: runs take turns, so that what slows one frame slows its neighbours too.
+    std::optional<Estimate> difference_by_seed(const Comparison& comparison, size_t left_ix, size_t right_ix) const {
+        const auto left = by_seed(comparison.left, left_ix);
+        if (!left) return std::nullopt;
+        const auto right =
+            comparison.right ? by_seed(*comparison.right, right_ix) : std::vector<double>(left->size(), comparison.number);
+        if (!right || right->size() != left->size()) return std::nullopt;
+        std::vector<double> differences;
+        for (size_t i = 0; i < left->size(); ++i) differences.push_back((*left)[i] - (*right)[i]);
+        return estimate(differences);
+    }
+
+    std::optional<std::vector<double>> by_seed(const Term& term, size_t setting_ix) const {
+        if (!term.at_time_of.empty()) return std::nullopt;
+        const auto& values = run(term.run, setting_ix).by_seed;
+        if (!values.contains(term.metric)) return std::nullopt;
+        std::vector<double> result = values.at(term.metric);
+        for (size_t i = 0; i < result.size(); ++i) {
+            if (!term.over_run.empty()) result[i] /= run(term.over_run, setting_ix).by_seed.at(term.metric)[i];
+            result[i] *= term.factor;
+        }
+        return result;
     }
 
     // Where the curve takes as long as a run.

@@ -12,7 +12,7 @@ namespace gnomon::reproduce {
 enum class Verdict {
     holds,
     does_not_hold,
-    undecided,  ///< The two sides of a comparison are within two standard errors of their difference.
+    undecided,  ///< The two sides of a comparison are as close as chance makes them in 95 of 100 cases.
 };
 
 /// "holds", "does not hold", "undecided"

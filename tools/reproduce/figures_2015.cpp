@@ -46,6 +46,11 @@ const std::vector<Run> kEqualRuns = {
      .label = "tsm, 8, map × 2",
      .map_scale = 2.0,
      .curve = "tsm"},
+    {.method = "tsm-dynamic-bias",
+     .parameters = {{"map-spp", 16.0}},
+     .label = "tsm, 16, map × 2",
+     .map_scale = 2.0,
+     .curve = "tsm"},
     {.method = "exact"},
 };
 
@@ -146,10 +151,7 @@ std::vector<Figure> figures_2015() {
          .plots = {Metric::systematic, Metric::noise, Metric::flip},
          .claims = {{.quote = "DSM does not account for moving light sources either, and get severe self-shadowing artifacts.",
                      .source = "caption of Fig. 11",
-                     .comparisons = {{.left = {Metric::excess_shadow, "dsm"}, .sign = kGreater, .number = 0.005},
-                                     {.left = {Metric::systematic, "dsm"},
-                                      .sign = kGreater,
-                                      .right = Term{Metric::systematic, "tsm", 2.0}}}},
+                     .comparisons = {{.left = {Metric::excess_shadow, "dsm"}, .sign = kGreater, .number = 0.05}}},
                     dynamic_bias,
                     less_noise}},
         {.name = "2015-12",

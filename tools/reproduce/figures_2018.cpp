@@ -51,13 +51,17 @@ std::shared_ptr<const Experiment> sample_counts() {
 }
 
 std::vector<Claim> no_self_shadow(const std::string& caption) {
-    return {{.quote = "The images rendered by TSM contain severe self-shadow artifacts …",
-             .source = caption,
-             .comparisons = {{.left = {Metric::excess_shadow, "tsm"}, .sign = Comparison::Sign::greater, .number = 0.01}}},
+    const auto tsm = [&](const std::string& bias, const std::string& run) {
+        return Claim{
+            .quote = "The images rendered by TSM contain severe self-shadow artifacts …",
+            .source = caption + bias,
+            .comparisons = {{.left = {Metric::excess_shadow, run}, .sign = Comparison::Sign::greater, .number = 0.01}}};
+    };
+    return {tsm(", without a bias", "tsm, no bias"),
+            tsm(", with a bias", "tsm"),
             {.quote = "… while those rendered by our method do not.",
              .source = caption,
-             .comparisons = {{.left = {Metric::excess_shadow}, .right = Term{Metric::excess_shadow, "tsm", 0.5}},
-                             {.left = {Metric::excess_shadow}, .number = 0.001}}}};
+             .comparisons = {{.left = {Metric::excess_shadow}, .number = 0.001}}}};
 }
 
 }  // namespace

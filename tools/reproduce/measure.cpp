@@ -93,6 +93,7 @@ public:
 
     RunResult result(const SettingResult& setting) {
         for (const auto& [metric, values] : values_) result_.metrics[metric] = estimate(values);
+        result_.by_seed = values_;
         if (values_.contains(Metric::flip)) {
             result_.squares = {{Metric::error, statistics_.error(setting.converged)},
                                {Metric::noise, statistics_.noise()},

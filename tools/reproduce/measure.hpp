@@ -30,9 +30,10 @@ struct StageMean {
 struct RunResult {
     std::map<Metric, Estimate> metrics;
     std::vector<StageMean> stages;
-    Frame frame;                             ///< Of seed 0, without samples.
-    std::vector<double> flip;                ///< Of that frame, per pixel; empty without a reference.
-    std::map<Metric, PixelSquares> squares;  ///< Of those metrics that are roots of their mean.
+    Frame frame;                                    ///< Of seed 0, without samples.
+    std::vector<double> flip;                       ///< Of that frame, per pixel; empty without a reference.
+    std::map<Metric, std::vector<double>> by_seed;  ///< Of those metrics that each frame has of its own.
+    std::map<Metric, PixelSquares> squares;         ///< Of those metrics that are roots of their mean.
 };
 
 struct SettingResult {

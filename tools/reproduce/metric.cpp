@@ -44,7 +44,14 @@ Estimate estimate(std::span<const double> values) {
     for (const double value : values) sum += value;
     const double mean = sum / n;
     for (const double value : values) squares += (value - mean) * (value - mean);
-    return {mean, values.size() > 1 ? std::sqrt(squares / (n - 1.0) / n) : 0.0};
+    if (values.size() < 2) return {mean};
+    return {mean, std::sqrt(squares / (n - 1.0) / n), static_cast<uint32_t>(values.size()) - 1};
+}
+
+double deviations_by_chance(uint32_t freedom) {
+    constexpr double kFew[] = {1.960, 12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228};
+    // From 11 on within 0.01.
+    return freedom < std::size(kFew) ? kFew[freedom] : 1.960 + 2.6 / freedom;
 }
 
 std::string shown(const Estimate& estimate) {

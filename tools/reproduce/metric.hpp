@@ -2,6 +2,7 @@
 // What is measured of a run, and how it is written.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -47,7 +48,11 @@ const MetricInfo& info(Metric metric);
 struct Estimate {
     double value = 0.0;
     double standard_error = 0.0;  ///< Of the mean; 0 of a single run or of what is exact.
+    uint32_t freedom = 0;         ///< Degrees of the standard error's own: seeds - 1; 0: so many that it is as good as known.
 };
+
+/// How many standard errors an estimate is from its expectation, either way, in 5 of 100 cases: Student's t.
+double deviations_by_chance(uint32_t freedom);
 
 /// values: at least one.
 Estimate estimate(std::span<const double> values);

@@ -11,8 +11,6 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
-layout(constant_id = 1) const float kExtent = 0.0;          // Metres,
-layout(constant_id = 2) const float kExtentPerMetre = 0.0;  // and so many more for each metre of the nearest sample's depth.
 layout(binding = 0) uniform samplerBuffer map_samples;
 layout(binding = 1) uniform usamplerBuffer scanned;
 layout(binding = 2, scalar) writeonly buffer Counts { uint counts[]; };
@@ -42,7 +40,7 @@ void main() {
         } while (s < params.spp);
         more = nearest < kFarthest;
         if (more) {
-            float end = nearest + kExtent + kExtentPerMetre * nearest, sum = 0.0, held = 0.0;
+            float end = nearest + params.extent + params.extent_per_metre * nearest, sum = 0.0, held = 0.0;
             s = 0u;
             do {
                 float z = texelFetch(map_samples, base + int(s * kTileTexels)).x;

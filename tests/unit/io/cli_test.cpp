@@ -89,6 +89,7 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWith2) {
     }
     EXPECT_THAT(run({"bogus"}).err, HasSubstr("bogus"));
     EXPECT_THAT(run({"render", "--bogus"}).err, HasSubstr("gnomon render --help"));
+    EXPECT_THAT(run({"render", "a.gltf", "-o", "a.exr", "--width", "640"}).err, HasSubstr("not expected: --width 640,"));
     EXPECT_EQ(names(), std::set<std::string>{"a.gltf"});
 }
 

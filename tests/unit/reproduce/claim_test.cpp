@@ -25,7 +25,11 @@ protected:
             const size_t i = experiment->settings.size();
             experiment->settings.push_back({.scene = i < 2 ? "a" : "b", .make = {}, .x = i % 2 == 0 ? 4.0 : 8.0});
             SettingResult& setting = result.settings.emplace_back();
-            for (const Estimate& value : at) setting.runs.emplace_back().metrics[Metric::seconds] = value;
+            for (size_t run = 0; run < at.size(); ++run) {
+                RunResult& result_of_run = setting.runs.emplace_back();
+                result_of_run.metrics[Metric::seconds] = at[run];
+                if (!by_seed.empty()) result_of_run.by_seed[Metric::seconds] = by_seed[run];
+            }
         }
         const Figure figure{.name = "0000-1",
                             .title = "",
@@ -43,6 +47,7 @@ protected:
 
     std::vector<std::vector<Estimate>> seconds = {
         {{1.0, 0.01}, {0.5, 0.01}}, {{2.0, 0.01}, {0.6, 0.01}}, {{1.0, 0.01}, {0.97, 0.01}}, {{1.0, 0.01}, {1.5, 0.01}}};
+    std::vector<std::vector<double>> by_seed;  // Of each run, at all settings.
     const Term old_seconds{Metric::seconds, "old"}, new_seconds{Metric::seconds};
 };
 
@@ -50,7 +55,7 @@ TEST_F(Claims, EachSettingIsChecked) {
     const auto results = check({{.left = new_seconds, .sign = less, .right = old_seconds}});
     ASSERT_EQ(results.size(), 1u);
     EXPECT_EQ(results[0].run, "new");
-    // 1.00 and 0.97 are 0.03 apart, two standard errors are 2 sqrt(2) 0.01 = 0.0283; 1.5 is more than 1.
+    // 1.00 and 0.97 are 0.03 apart, 1.96 standard errors are 1.96 sqrt(2) 0.01 = 0.0277; 1.5 is more than 1.
     EXPECT_THAT(verdicts(results), ElementsAre(Verdict::holds, Verdict::holds, Verdict::holds, Verdict::does_not_hold));
     EXPECT_EQ(results[0].verdict, Verdict::does_not_hold);
     EXPECT_EQ(results[0].checks[0].scene, "a, 4 samples");
@@ -96,6 +101,26 @@ TEST(SystematicClaims, AreDecidedPixelByPixel) {
     EXPECT_EQ(check(1.5).verdict, Verdict::does_not_hold);
     setting.runs[1].squares = setting.runs[0].squares;
     EXPECT_EQ(check(1.0).verdict, Verdict::does_not_hold);
+}
+
+// Frames that take turns on a machine that gets slower: each pair says the same.
+TEST_F(Claims, AreDecidedSeedBySeed) {
+    seconds = {{{2.0, 0.58, 2}, {2.1, 0.58, 2}}};
+    const std::vector<Comparison> slower = {{.left = new_seconds, .sign = greater, .right = old_seconds}};
+    EXPECT_EQ(verdicts(check(slower))[0], Verdict::undecided);
+    by_seed = {{1.0, 2.0, 3.0}, {1.09, 2.1, 3.11}};
+    EXPECT_EQ(verdicts(check(slower))[0], Verdict::holds);
+    // Mean 0.1, standard error 0.0289: 3.46 of them, and of three seeds chance makes 4.3.
+    by_seed[1] = {1.05, 2.1, 3.15};
+    EXPECT_EQ(verdicts(check(slower))[0], Verdict::undecided);
+    by_seed = {{0.5, 0.5, 0.5}, {0.2, 0.3, 0.25}};
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .number = 0.4}}))[0], Verdict::holds);
+    EXPECT_EQ(verdicts(check({{.left = new_seconds, .number = 0.3}}))[0], Verdict::undecided);
+    // 0.4, 0.6, 0.5 of the old one's.
+    Term ratio = new_seconds;
+    ratio.over_run = "old";
+    EXPECT_EQ(verdicts(check({{.left = ratio, .sign = greater, .number = 0.2}}))[0], Verdict::holds);
+    EXPECT_EQ(verdicts(check({{.left = ratio, .sign = greater, .number = 0.3}}))[0], Verdict::undecided);
 }
 
 TEST_F(Claims, OneUndecidedCheckLeavesTheClaimUndecided) {

@@ -9,6 +9,18 @@
 namespace gnomon::reproduce {
 namespace {
 
+TEST(Chance, IsStudentsT) {
+    EXPECT_EQ(deviations_by_chance(0), 1.960);
+    EXPECT_EQ(deviations_by_chance(1), 12.706);
+    EXPECT_EQ(deviations_by_chance(2), 4.303);
+    EXPECT_EQ(deviations_by_chance(10), 2.228);
+    EXPECT_NEAR(deviations_by_chance(11), 2.201, 0.005);
+    EXPECT_NEAR(deviations_by_chance(30), 2.042, 0.005);
+    EXPECT_NEAR(deviations_by_chance(120), 1.980, 0.005);
+    EXPECT_EQ(estimate(std::vector<double>{1.0, 2.0, 3.0}).freedom, 2u);
+    EXPECT_EQ(estimate(std::vector<double>{1.0}).freedom, 0u);
+}
+
 TEST(Estimates, HandWorked) {
     const double values[] = {2.0, 4.0, 9.0};
     const Estimate e = estimate(values);
