@@ -164,8 +164,10 @@ PixelSquares VisibilityStatistics::noise() const {
 // square(difference of the mean, variance, frames)
 template <typename F>
 PixelSquares VisibilityStatistics::against(const Frame& reference, const F& square) const {
+    std::vector<const std::vector<float>*> truth;
+    for (uint32_t light = 0; light < lights_; ++light) truth.push_back(&visibility(reference, light));
     PixelSquares result = each([&](size_t pixel, uint32_t light, double mean, double variance, double n) {
-        return square(mean - double(visibility(reference, light)[pixel]), variance, n);
+        return square(mean - double((*truth[light])[pixel]), variance, n);
     });
     const std::vector<float>& alpha = plane(reference, "A");
     for (size_t i = 0; i < alpha.size(); ++i)

@@ -31,7 +31,7 @@ const std::vector<Run> kInsets = {
     {.method = "exact"},
 };
 
-// tsm with the samples of fssm, then with twice as many on larger and larger maps, until it takes as long.
+// tsm with the samples of fssm, then with more on larger and larger maps, until it takes as long.
 const std::vector<Run> kEqualRuns = {
     {.method = "fssm", .proposed = true},
     {.method = "tsm-dynamic-bias", .curve = "tsm"},
@@ -126,10 +126,9 @@ std::vector<Figure> figures_2015() {
     return {
         {.name = "2015-9",
          .title = "Parts of the method switched off",
-         .shows =
-             "Shadows of an octopus' arms, 4 samples per pixel. Insets A to C leave out a layer, the choice of neighbours, and "
-             "the filter across fast motion. Each is asked about where its part has work: four layers lie above each other "
-             "in the whole octopus, and tiles' borders and fast arms are seen from above.",
+         .shows = "Shadows of an octopus' arms, 4 samples per pixel. Insets A to C leave out a layer, the choice of "
+                  "neighbours, and the filter across fast motion. Each is asked about where its part has work: four layers "
+                  "lie above each other in the whole octopus, and tiles' borders and fast arms are seen from above.",
          .experiment = against_reference({octopus(kOctopus, 0), octopus(kAbove, 1)}, kInsets),
          .plots = {Metric::systematic, Metric::noise, Metric::flip},
          .claims =
@@ -144,8 +143,8 @@ std::vector<Figure> figures_2015() {
                     "fssm, no tent", Metric::error, kAbove)}},
         {.name = "2015-11",
          .title = "Pillars below a moving light",
-         .shows =
-             "The light moves up and away from pillars that stand still. The turn of the light is cut into 4 linear pieces.",
+         .shows = "The light moves up and away from pillars that stand still. The turn of the light is cut into 4 linear "
+                  "pieces.",
          .experiment = difficult(
              "pillars", [](const Path& path) { makers::make_pillars(path, {.rising = true}); }, 0.08, 4),
          .plots = {Metric::systematic, Metric::noise, Metric::flip},
@@ -187,9 +186,8 @@ std::vector<Figure> figures_2015() {
                     less_noise}},
         {.name = "2015-14",
          .title = "Equal samples and equal time",
-         .shows = "4 samples per pixel, maps of 1024 texels. Scenes of the same kind stand in for the paper's. For equal time "
-                  "tsm has "
-                  "twice the samples and larger maps.",
+         .shows = "4 samples per pixel, maps of 1024 texels. Scenes of the same kind stand in for the paper's. For equal "
+                  "time tsm has up to four times the samples and larger maps.",
          .experiment = against_reference(rich_scenes(), kEqualRuns),
          .plots = {Metric::noise, Metric::systematic},
          .claims = {{.quote = "Our algorithm has significantly less noise compared to time-dependent shadow maps (TSM).",

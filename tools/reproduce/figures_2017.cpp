@@ -159,8 +159,8 @@ std::vector<Figure> figures_2017() {
                      .comparisons = {{.left = {Metric::map_seconds}, .right = Term{Metric::map_seconds, "tsm"}}}}}},
         {.name = "2017-8",
          .title = "Ranges per texel",
-         .shows = "4,000 cubes of random places and speeds in [4, 8] metres in a shutter. The paper does not say how large its "
-                  "cubes are.",
+         .shows = "4,000 cubes of random places and speeds in [4, 8] metres in a shutter. The paper does not say how large "
+                  "its cubes are.",
          .experiment = heat_maps(),
          .plots = {Metric::ranges, Metric::map_bytes},
          .claims = {{.quote = "Using the coverage map significantly reduces the total number of visible time ranges stored in "
@@ -169,9 +169,8 @@ std::vector<Figure> figures_2017() {
                      .comparisons = {saves(Metric::ranges, 0.5)}}}},
         {.name = "2017-9",
          .title = "Memory against the number of cubes",
-         .shows = "Cubes of random places and speeds in [4, 8] metres in a shutter, all of a size in one space: more cubes are "
-                  "more in "
-                  "each texel. The paper does not say how large its cubes are.",
+         .shows = "Cubes of random places and speeds in [4, 8] metres in a shutter, all of a size in one space: more cubes "
+                  "are more in each texel. The paper does not say how large its cubes are.",
          .experiment = counts,
          .plots = {Metric::map_bytes, Metric::ranges},
          .claims = {memory_grows, memory_saved}},

@@ -74,8 +74,7 @@ std::vector<Figure> figures_2018() {
         {.name = "2018-9",
          .title = "Quality against tsm, two cubes",
          .shows = "Two cubes of 6,000 triangles each move toward the light, 8 samples per pixel. The ground is small: the "
-                  "light's map "
-                  "holds it all.",
+                  "light's map holds it all.",
          .experiment = quality(two_cubes(8)),
          .plots = {Metric::excess_shadow, Metric::false_shadow, Metric::flip},
          .claims = no_self_shadow("caption of Fig. 9")},

@@ -192,17 +192,14 @@ std::string details(const Experiment& experiment, const ExperimentResult& result
 
 constexpr const char* kHowMeasured =
     "Figures are means over seeds, ± the standard error of the mean. False shadow and false light are shares of the shadow "
-    "tests, "
-    "compared one by one with those that were ray-traced at the same samples; excess shadow is their difference: a coarse map "
-    "makes "
-    "the edges of shadows wrong both ways alike, self-shadowing does not. RMSE of visibility and FLIP are against the "
-    "converged "
-    "reference and hold the camera's noise too; noise of visibility is the root of its mean variance between seeds, and error "
-    "without noise what it leaves of the RMSE. Times are the device's, without reading the scene and writing files. The shadow "
-    "map is what the shadow tests read: ranges and their "
-    "lists, or depths. Where pictures are compared or ranges are shown, maps have their full size at any scale. Sides of a "
-    "comparison are compared seed by seed, and errors and noise pixel by pixel as well. A claim is undecided where they are no "
-    "further apart than chance brings equal ones in 95 of 100 cases (Student's t).";
+    "tests, compared one by one with those that were ray-traced at the same samples; excess shadow is their difference: a "
+    "coarse map makes the edges of shadows wrong both ways alike, self-shadowing does not. RMSE of visibility and FLIP are "
+    "against the converged reference and hold the camera's noise too; noise of visibility is the root of its mean variance "
+    "between seeds, and error without noise what it leaves of the RMSE. Times are the device's, without reading the scene "
+    "and writing files. The shadow map is what the shadow tests read: ranges and their lists, or depths. Where pictures are "
+    "compared or ranges are shown, maps have their full size at any scale. Sides of a comparison are compared seed by seed, "
+    "and errors and noise pixel by pixel as well. A claim is undecided where they are no further apart than chance brings "
+    "equal ones in 95 of 100 cases (Student's t).";
 
 }  // namespace
 
