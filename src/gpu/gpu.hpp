@@ -28,6 +28,7 @@ struct Limits {
     uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
     uint32_t subgroup_size = 1;
+    uint32_t crew = 8;  ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
     bool is_cpu = false;
 };
 
