@@ -121,6 +121,7 @@ public:
     /// Bytes of buffers that may be allocated at one time; 0: no limit. Where upload and download have to stage, they use 32
     /// MiB of host memory besides.
     void set_budget(uint64_t bytes);
+    uint64_t budget_left() const;  ///< Of the budget; all that there is where there is none.
     uint64_t live_bytes() const;
     uint64_t peak_bytes() const;
     std::map<std::string, uint64_t> largest_bytes() const;  ///< By buffer name.
