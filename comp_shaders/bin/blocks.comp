@@ -9,7 +9,7 @@
 #include "shared/rect.h"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform usamplerBuffer rects;
+READ_UVEC2(0, rects)
 layout(binding = 1, scalar) writeonly buffer Blocks { uvec2 blocks[]; };
 layout(binding = 2, scalar) buffer BlockCount { uint block_count; };
 layout(push_constant, scalar) uniform Push { BinParams params; };
@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push { BinParams params; };
 void main() {
     uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     bool inside = triangle < params.triangle_count;
-    Rect rect = unpack_rect(texelFetch(rects, int(params.rect_first + min(triangle, params.triangle_count - 1u))).xy);
+    Rect rect = unpack_rect(fetch_rects(params.rect_first + min(triangle, params.triangle_count - 1u)));
     bool large = inside && rect.seen != 0u && rect_is_large(rect.first, rect.last, rect.in_front);
     uint count = large ? rect_blocks(rect.first, rect.last) : 0u;
     uint place = 0u;

@@ -13,10 +13,10 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kByBounds = false;  // Each prism once, in every tile of its bounds.
-layout(binding = 0) uniform usamplerBuffer blocks;
-layout(binding = 1) uniform usamplerBuffer rects;
-layout(binding = 2) uniform usamplerBuffer triangles;
-layout(binding = 3) uniform samplerBuffer raster_vertices;
+READ_UVEC2(0, blocks)
+READ_UVEC2(1, rects)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
 layout(binding = 4, scalar) buffer Lists { uint lists[]; };
 layout(binding = 5, scalar) writeonly buffer Entries { uint entries[]; };
 layout(push_constant, scalar) uniform Push { BinParams params; };
@@ -42,10 +42,10 @@ void main() {
     uint number = group_index() * (gl_WorkGroupSize.x / kBlockTiles) + gl_LocalInvocationID.x / kBlockTiles;
     if (number >= params.block_count) return;
     ViewGrid grid = params.grid;
-    uvec2 block = texelFetch(blocks, int(number)).xy;
+    uvec2 block = fetch_blocks(number);
     uint triangle = block.x;
     uint cell = block.y >> 20u;
-    Rect rect = unpack_rect(texelFetch(rects, int(cell * params.rect_stride + triangle - params.triangle_first)).xy);
+    Rect rect = unpack_rect(fetch_rects(cell * params.rect_stride + triangle - params.triangle_first));
     uint columns = rect.last.x - rect.first.x + 1u;
     uint rounds = rect_rounds(rect.first, rect.last);
 

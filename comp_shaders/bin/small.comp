@@ -11,7 +11,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kByBounds = false;  // Each prism once.
-layout(binding = 0) uniform usamplerBuffer rects;
+READ_UVEC2(0, rects)
 layout(binding = 1, scalar) buffer Lists { uint lists[]; };
 layout(binding = 2, scalar) writeonly buffer Entries { uint entries[]; };
 layout(push_constant, scalar) uniform Push { BinParams params; };
@@ -20,7 +20,7 @@ void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     bool inside = i < params.triangle_count;
     uint triangle = params.triangle_first + i;
-    Rect rect = unpack_rect(texelFetch(rects, int(params.rect_first + min(i, params.triangle_count - 1u))).xy);
+    Rect rect = unpack_rect(fetch_rects(params.rect_first + min(i, params.triangle_count - 1u)));
     bool listed = inside && rect.seen != 0u && !rect_is_large(rect.first, rect.last, rect.in_front);
     uint copies = rect.seen == 3u && !kByBounds ? 2u : 1u;
     uint first_entry = triangle | (rect.seen == 2u && !kByBounds ? kReversed : 0u);

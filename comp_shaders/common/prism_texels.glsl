@@ -8,10 +8,10 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kPass = 0u;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const bool kCullBackFaces = false;  // Leave out what the light sees from behind at both ends.
-layout(binding = 0) uniform usamplerBuffer bin_offsets;
-layout(binding = 1) uniform usamplerBuffer bin_entries;
-layout(binding = 2) uniform usamplerBuffer triangles;
-layout(binding = 3) uniform samplerBuffer raster_vertices;
+READ_UINT(0, bin_offsets)
+READ_UINT(1, bin_entries)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
 layout(binding = 5, scalar) buffer Ticket { uint ticket; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
@@ -49,8 +49,8 @@ void visit_texels(uint number) {
     vec2 span = cell_span(grid, cell);
     uint list_first = (item - params.item_first) * kTileTexels;
 
-    uint k = texelFetch(bin_offsets, int(item)).x + params.list_first;
-    uint end = inside ? min(texelFetch(bin_offsets, int(item + 1u)).x, k + kListChunk) : 0u;
+    uint k = fetch_bin_offsets(item) + params.list_first;
+    uint end = inside ? min(fetch_bin_offsets(item + 1u), k + kListChunk) : 0u;
     uint lane = gl_LocalInvocationID.x & 7u;
     while (k < end) {
         uint left = end - k;
@@ -58,7 +58,7 @@ void visit_texels(uint number) {
         uint share = 1u << share_log2;
         uint number_here = lane >> share_log2;
         bool own = number_here < left;
-        uint entry = texelFetch(bin_entries, int(min(k + number_here, end - 1u))).x & ~kReversed;
+        uint entry = fetch_bin_entries(min(k + number_here, end - 1u)) & ~kReversed;
         CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
         PrismSurface surface = prism_surface(c, centre.x, centre.y, kOrthographic);
         uvec4 texels = covered_texels(c, centre, grid_extent(grid));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hit, found again from its sample: where on its triangle it lies. Needs: usamplerBuffer triangles, samplerBuffer raster_vertices (the camera's), common/triangle.glsl
+// A hit, found again from its sample: where on its triangle it lies. Needs: triangles, raster_vertices (the camera's), common/triangle.glsl
 // and common/batch.glsl.
 
 struct Receiver {
@@ -21,7 +21,7 @@ Receiver fetch_receiver(uint entry, uvec2 pixel, vec3 p, uint stratum, uint spp,
     uint cell = straddle ? cell_of(p.z, grid.cell_count) : divide(stratum, spp / grid.cell_count);
     h.segment = divide(cell, grid.cell_count / grid.segment_count);
     h.local_time = local_time_of(p.z, h.segment, grid.segment_count);
-    uvec4 tri = texelFetch(triangles, int(entry & ~kReversed));
+    uvec4 tri = fetch_triangles(entry & ~kReversed);
     h.vertex = tri.xyz;
     h.material = tri.w;
     MovingTriangle m = fetch_moving_triangle(entry & ~kReversed, h.segment * grid.vertex_stride, grid.vertex_stride);

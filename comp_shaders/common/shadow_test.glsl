@@ -12,14 +12,14 @@ layout(constant_id = 2) const bool kStraddle = false;            // As in sample
 layout(constant_id = 3) const bool kCount = false;               // Fill ShadowCounts.
 layout(constant_id = 4) const bool kResume = false;              // Lists are walked in parts of kListChunk.
 layout(constant_id = 5) const bool kFirst = false;               // Nothing was written to Lit before.
-layout(binding = 0) uniform usamplerBuffer queue;
-layout(binding = 1) uniform usamplerBuffer hits;
-layout(binding = 2) uniform usamplerBuffer triangles;
-layout(binding = 3) uniform samplerBuffer raster_vertices;
-layout(binding = 4) uniform samplerBuffer light_vertices;
+READ_UINT(0, queue)
+READ_UINT(1, hits)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
+READ_VEC4(4, light_vertices)
 layout(binding = 5, scalar) buffer Lit { uint lit[]; };
 layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
-layout(binding = 8) uniform samplerBuffer positions;
+READ_VEC4(8, positions)
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
 layout(binding = 9, scalar) buffer Ticket { uint ticket; };
 layout(push_constant, scalar) uniform Push { ShadowParams params; };
@@ -29,19 +29,19 @@ layout(push_constant, scalar) uniform Push { ShadowParams params; };
 #include "common/receiver.glsl"
 
 vec4 light_vertex_at(uint vertex, Receiver h) {
-    int i = int(h.segment * params.camera.vertex_stride + vertex);
-    vec4 a = texelFetch(light_vertices, i);
-    vec4 b = texelFetch(light_vertices, i + int(params.camera.vertex_stride));
+    uint i = h.segment * params.camera.vertex_stride + vertex;
+    vec4 a = fetch_light_vertices(i);
+    vec4 b = fetch_light_vertices(i + params.camera.vertex_stride);
     return vertex_at(a, b - a, h.local_time);
 }
 
 // Metres along the hit's normal within which nothing occludes: 2^-20 of its largest coordinate, but no less than the light space's own rounding.
 float occlusion_tolerance(Receiver h) {
-    int key = int(h.segment * params.camera.vertex_stride);
-    int next = key + int(params.camera.vertex_stride);
+    uint key = h.segment * params.camera.vertex_stride;
+    uint next = key + params.camera.vertex_stride;
     vec3 p = vec3(0.0);
     [[unroll]] for (int k = 0; k < 3; ++k) {
-        p += h.barycentrics[k] * mix(texelFetch(positions, key + int(h.vertex[k])).xyz, texelFetch(positions, next + int(h.vertex[k])).xyz, h.local_time);
+        p += h.barycentrics[k] * mix(fetch_positions(key + h.vertex[k]).xyz, fetch_positions(next + h.vertex[k]).xyz, h.local_time);
     }
     return max(max_of(abs(p.x), abs(p.y), abs(p.z)) * (1.0 / 1048576.0), params.tolerance);
 }
@@ -66,8 +66,8 @@ struct ShadowTest {
 ShadowTest shadow_test(uint i) {
     ShadowTest test;
     bool inside = i < params.hit_count;
-    test.slot = texelFetch(queue, int(min(i, params.hit_count - 1u))).x;
-    test.own = texelFetch(hits, int(test.slot)).x & ~kReversed;
+    test.slot = fetch_queue(min(i, params.hit_count - 1u));
+    test.own = fetch_hits(test.slot) & ~kReversed;
     Slot s = unpack_slot(test.slot, params.stratum_count);
     uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
     uint stratum = params.stratum_first + s.stratum;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Base colour textures: bilinear, in linear light, with glTF's wrap modes. Needs: usamplerBuffer texels (RGBA8 in one word, four of them an element), samplerBuffer srgb_to_linear (256).
+// Base colour textures: bilinear, in linear light, with glTF's wrap modes. Needs: texels (RGBA8 in one word, four of them an element), srgb_to_linear (256).
 
 // Farther ones are taken for this one: floats of their size hold no texel exactly, integers hold them no more.
 const float kFarthestTexel = 1073741824.0;
@@ -14,9 +14,9 @@ uint wrap_texel(int i, uint size, uint mode) {
 
 vec4 fetch_texel(uint first, uvec2 size, ivec2 at, uint wrap) {
     uint place = first + wrap_texel(at.y, size.y, wrap >> 2u) * size.x + wrap_texel(at.x, size.x, wrap & 3u);
-    uint word = texelFetch(texels, int(place / 4u))[place & 3u];
-    return vec4(texelFetch(srgb_to_linear, int(word & 255u)).x, texelFetch(srgb_to_linear, int((word >> 8u) & 255u)).x,
-                texelFetch(srgb_to_linear, int((word >> 16u) & 255u)).x, float(word >> 24u) * (1.0 / 255.0));
+    uint word = fetch_texels(place / 4u)[place & 3u];
+    return vec4(fetch_srgb_to_linear(word & 255u), fetch_srgb_to_linear((word >> 8u) & 255u),
+                fetch_srgb_to_linear((word >> 16u) & 255u), float(word >> 24u) * (1.0 / 255.0));
 }
 
 // image: first texel, width, height, wrap modes (u | v << 2).

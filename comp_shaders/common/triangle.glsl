@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fetching moving triangles in raster space. Needs: usamplerBuffer triangles (vertex 0, 1, 2, material), samplerBuffer raster_vertices (key-major).
+// Fetching moving triangles in raster space. Needs: triangles (vertex 0, 1, 2, material), raster_vertices (key-major).
 #include "math/cover.h"
 
 // The vertices at a segment's start (a) and their motion until its end (d).
@@ -10,17 +10,17 @@ struct MovingTriangle {
 
 // `entry` is a list's entry: a triangle, reversed or not.
 MovingTriangle fetch_moving_triangle(uint entry, uint key_first, uint vertex_stride) {
-    uvec3 v = texelFetch(triangles, int(entry & ~kReversed)).xyz;
+    uvec3 v = fetch_triangles(entry & ~kReversed).xyz;
     bool reversed = (entry & kReversed) != 0u;
     uint i0 = key_first + v.x;
     uint i1 = key_first + (reversed ? v.z : v.y);
     uint i2 = key_first + (reversed ? v.y : v.z);
     MovingTriangle m;
-    m.a0 = texelFetch(raster_vertices, int(i0));
-    m.a1 = texelFetch(raster_vertices, int(i1));
-    m.a2 = texelFetch(raster_vertices, int(i2));
-    m.d0 = texelFetch(raster_vertices, int(i0 + vertex_stride)) - m.a0;
-    m.d1 = texelFetch(raster_vertices, int(i1 + vertex_stride)) - m.a1;
-    m.d2 = texelFetch(raster_vertices, int(i2 + vertex_stride)) - m.a2;
+    m.a0 = fetch_raster_vertices(i0);
+    m.a1 = fetch_raster_vertices(i1);
+    m.a2 = fetch_raster_vertices(i2);
+    m.d0 = fetch_raster_vertices(i0 + vertex_stride) - m.a0;
+    m.d1 = fetch_raster_vertices(i1 + vertex_stride) - m.a1;
+    m.d2 = fetch_raster_vertices(i2 + vertex_stride) - m.a2;
     return m;
 }

@@ -10,12 +10,12 @@
 #include "math/pose.h"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform usamplerBuffer rest;
-layout(binding = 1) uniform usamplerBuffer influences;
-layout(binding = 2) uniform samplerBuffer palette;
-layout(binding = 3) uniform samplerBuffer morph_positions;
-layout(binding = 4) uniform samplerBuffer morph_normals;
-layout(binding = 5) uniform samplerBuffer morph_weights;
+READ_UVEC4(0, rest)
+READ_UVEC2(1, influences)
+READ_VEC4(2, palette)
+READ_VEC4(3, morph_positions)
+READ_VEC4(4, morph_normals)
+READ_FLOAT(5, morph_weights)
 layout(binding = 6, scalar) writeonly buffer Positions { vec4 positions[]; };
 layout(binding = 7, scalar) writeonly buffer Normals { vec4 normals[]; };
 layout(push_constant, scalar) uniform Push { PoseParams params; };
@@ -24,27 +24,27 @@ void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (i >= params.vertex_count) return;
     uint v = params.vertex_first + i;
-    uvec4 head = texelFetch(rest, int(3u * v));
-    uvec4 tail = texelFetch(rest, int(3u * v + 1u));
-    uvec4 morph = texelFetch(rest, int(3u * v + 2u));
+    uvec4 head = fetch_rest(3u * v);
+    uvec4 tail = fetch_rest(3u * v + 1u);
+    uvec4 morph = fetch_rest(3u * v + 2u);
     vec3 p = uintBitsToFloat(head.xyz);
     vec3 n = uintBitsToFloat(tail.xyz);
     // morph: target count, first delta, deltas from one target to the next, first weight
     for (uint j = 0u; j < morph.x; ++j) {
-        float weight = texelFetch(morph_weights, int(morph.w + j)).x;
-        int delta = int(morph.y + j * morph.z);
-        p = morph_add(p, texelFetch(morph_positions, delta).xyz, weight);
-        n = morph_add(n, texelFetch(morph_normals, delta).xyz, weight);
+        float weight = fetch_morph_weights(morph.w + j);
+        uint delta = morph.y + j * morph.z;
+        p = morph_add(p, fetch_morph_positions(delta).xyz, weight);
+        n = morph_add(n, fetch_morph_normals(delta).xyz, weight);
     }
     vec3 position = vec3(0.0);
     vec3 normal = vec3(0.0);
     for (uint j = 0u; j < tail.w; ++j) {
-        uvec2 influence = texelFetch(influences, int(head.w + j)).xy;
-        int row = int(3u * influence.x);
+        uvec2 influence = fetch_influences(head.w + j);
+        uint row = 3u * influence.x;
         float weight = uintBitsToFloat(influence.y);
-        vec4 row_x = texelFetch(palette, row);
-        vec4 row_y = texelFetch(palette, row + 1);
-        vec4 row_z = texelFetch(palette, row + 2);
+        vec4 row_x = fetch_palette(row);
+        vec4 row_y = fetch_palette(row + 1u);
+        vec4 row_z = fetch_palette(row + 2u);
         position = skin_add(position, row_x, row_y, row_z, p, weight);
         normal = skin_add_normal(normal, row_x, row_y, row_z, n, weight);
     }

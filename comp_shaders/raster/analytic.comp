@@ -13,10 +13,10 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kOrthographic = false;
-layout(binding = 0) uniform usamplerBuffer bin_offsets;
-layout(binding = 1) uniform usamplerBuffer bin_entries;
-layout(binding = 2) uniform usamplerBuffer triangles;
-layout(binding = 3) uniform samplerBuffer raster_vertices;
+READ_UINT(0, bin_offsets)
+READ_UINT(1, bin_entries)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
 layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
 layout(binding = 5, scalar) buffer Ticket { uint ticket; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
@@ -49,8 +49,8 @@ void main() {
     float cell_start = float(cell);
     float per_cell = 1.0 / float(grid.cell_count);
 
-    uint k = texelFetch(bin_offsets, int(item)).x + params.list_first;
-    uint end = min(texelFetch(bin_offsets, int(item + 1u)).x, k + kListChunk);
+    uint k = fetch_bin_offsets(item) + params.list_first;
+    uint end = min(fetch_bin_offsets(item + 1u), k + kListChunk);
     uint list = (item - params.item_first) * kTileTexels + texel;
     uint count = 0u;
 #ifdef LAYOUT_CURSOR
@@ -58,7 +58,7 @@ void main() {
 #endif
 
     while (k < end) {
-        uint entry = texelFetch(bin_entries, int(k)).x;
+        uint entry = fetch_bin_entries(k);
         CellTriangle c = fetch_cell_triangle(grid, entry, key_first, span);
         PointPrism prism = point_prism(c, x, y);
         Stays stays = stays_over(prism);

@@ -14,10 +14,10 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const uint kCrew = 8u;
-layout(binding = 0) uniform usamplerBuffer bin_offsets;
-layout(binding = 1) uniform usamplerBuffer bin_entries;
-layout(binding = 2) uniform usamplerBuffer triangles;
-layout(binding = 3) uniform samplerBuffer raster_vertices;
+READ_UINT(0, bin_offsets)
+READ_UINT(1, bin_entries)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
 layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
 layout(binding = 5, scalar) buffer Ticket { uint ticket; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
@@ -57,8 +57,8 @@ void main() {
     float cell_start = float(cell);
     float per_cell = 1.0 / float(grid.cell_count);
 
-    uint begin = texelFetch(bin_offsets, int(item)).x + params.list_first;
-    uint end = max(texelFetch(bin_offsets, int(item + 1u)).x, begin);
+    uint begin = fetch_bin_offsets(item) + params.list_first;
+    uint end = max(fetch_bin_offsets(item + 1u), begin);
     uint entries = inside ? min(end - begin, kListChunk) : 0u;
     uint rounds = rounds_of(entries);
 
@@ -78,7 +78,7 @@ void main() {
     uint k = 0u;
     while (k < rounds) {
         // Past the end: any entry, which then is not listed.
-        uint own_entry = texelFetch(bin_entries, int(k + crew.place < entries ? begin + k + crew.place : 0u)).x;
+        uint own_entry = fetch_bin_entries(k + crew.place < entries ? begin + k + crew.place : 0u);
         CellTriangle c = fetch_cell_triangle(grid, own_entry, key_first, span);
         TileBounds own_bounds = tile_bounds(c, centre.x, centre.y, kReach, extent);
         uvec2 own_rows = tile_rows(c, centre.y, kReach, extent, slack);

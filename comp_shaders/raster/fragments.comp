@@ -11,7 +11,7 @@
 
 layout(constant_id = 3) const bool kCoverage = false;
 layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
-layout(binding = 6) uniform usamplerBuffer coverage;
+READ_UINT(6, coverage)
 layout(binding = 16, scalar) buffer FragmentHeads { uint fragment_heads[]; };
 layout(binding = 17, scalar) writeonly buffer Fragments { uvec4 fragments[]; };
 layout(binding = 18, scalar) buffer FragmentCount { uint fragment_count; };
@@ -20,7 +20,7 @@ layout(binding = 18, scalar) buffer FragmentCount { uint fragment_count; };
 uint total = 0u;
 
 void visit(uint list, uint triangle, PrismFragments f) {
-    if (kCoverage && texelFetch(coverage, int(params.item_first * kTileTexels + list)).x != kNone) return;
+    if (kCoverage && fetch_coverage(params.item_first * kTileTexels + list) != kNone) return;
     uint count = uint(bitCount(f.covered));
     total += count;
     if (kPass == 0u) return;

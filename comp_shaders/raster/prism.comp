@@ -14,8 +14,8 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kResume = false;  // Lists are walked in parts.
-layout(binding = 0) uniform usamplerBuffer fragment_heads;
-layout(binding = 1) uniform usamplerBuffer fragments;
+READ_UINT(0, fragment_heads)
+READ_UVEC4(1, fragments)
 layout(binding = 2, scalar) buffer PairCounts { uvec2 pair_counts[]; };
 layout(binding = 3, scalar) buffer Resume { uint resume[]; };
 layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
@@ -45,12 +45,12 @@ void main() {
 #ifdef LAYOUT_CURSOR
     if (kFill && inside) count = layout_cursor(list);
 #endif
-    uint node = texelFetch(fragment_heads, int(item * kTileTexels + gl_LocalInvocationID.x)).x;
+    uint node = fetch_fragment_heads(item * kTileTexels + gl_LocalInvocationID.x);
     if (kResume && params.list_first > 0u) node = resume[list];
     uint id = kNone, held = 0u, steps = 0u;
     bool more = inside && node != kNone;
     while (more) {
-        uvec4 fragment = texelFetch(fragments, node != kNone ? int(node - params.fragment_first) : 0);
+        uvec4 fragment = fetch_fragments(node != kNone ? node - params.fragment_first : 0u);
         uint next_id = node != kNone ? fragment.z : kNone;
         bool ends = next_id != id;
         if (ends) {

@@ -8,19 +8,19 @@
 #include "common/stage.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform usamplerBuffer hits;
-layout(binding = 1) uniform usamplerBuffer runs;
+READ_UVEC4(0, hits)
+READ_UINT(1, runs)
 layout(binding = 2, scalar) writeonly buffer Queue { uint queue[]; };
 layout(push_constant, scalar) uniform Push { CompactParams params; };
 
 void main() {
     uint run = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (run >= params.run_count) return;
-    uint place = texelFetch(runs, int(run)).x;
+    uint place = fetch_runs(run);
     uint slot = run * kScanRun;
     uint end = slot + kScanRun;
     do {
-        uvec4 h = texelFetch(hits, int(slot / 4u));
+        uvec4 h = fetch_hits(slot / 4u);
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
             if (h[j] != kNone) {
                 queue[place] = slot + j;

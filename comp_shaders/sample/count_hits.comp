@@ -8,7 +8,7 @@
 #include "common/stage.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform usamplerBuffer hits;
+READ_UVEC4(0, hits)
 layout(binding = 1, scalar) writeonly buffer Runs { uint runs[]; };
 layout(push_constant, scalar) uniform Push { CompactParams params; };
 
@@ -19,7 +19,7 @@ void main() {
     uint quad = run * (kScanRun / 4u);
     uint end = quad + kScanRun / 4u;
     do {
-        uvec4 h = texelFetch(hits, int(quad));
+        uvec4 h = fetch_hits(quad);
         count += (h.x != kNone ? 1u : 0u) + (h.y != kNone ? 1u : 0u) + (h.z != kNone ? 1u : 0u) + (h.w != kNone ? 1u : 0u);
         ++quad;
     } while (quad < end);

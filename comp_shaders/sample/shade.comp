@@ -18,17 +18,17 @@ layout(constant_id = 3) const bool kTextures = false;
 layout(constant_id = 4) const bool kSmooth = false;      // Vertices have normals.
 layout(constant_id = 5) const bool kLightsMove = false;
 layout(constant_id = 6) const bool kFractional = false;  // Visibility is a share: see write_visibility.
-layout(binding = 0) uniform usamplerBuffer hits;
-layout(binding = 1) uniform usamplerBuffer lit;
-layout(binding = 2) uniform usamplerBuffer triangles;
-layout(binding = 3) uniform samplerBuffer raster_vertices;
-layout(binding = 4) uniform samplerBuffer positions;
-layout(binding = 5) uniform samplerBuffer normals;
-layout(binding = 6) uniform samplerBuffer attributes;
-layout(binding = 7) uniform usamplerBuffer materials;
-layout(binding = 8) uniform usamplerBuffer texels;
-layout(binding = 9) uniform samplerBuffer srgb_to_linear;
-layout(binding = 10) uniform samplerBuffer lights;
+READ_UINT(0, hits)
+READ_UINT(1, lit)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
+READ_VEC4(4, positions)
+READ_VEC4(5, normals)
+READ_VEC4(6, attributes)
+READ_UVEC4(7, materials)
+READ_UVEC4(8, texels)
+READ_FLOAT(9, srgb_to_linear)
+READ_VEC4(10, lights)
 layout(binding = 11, scalar) buffer Film { float film[]; };
 layout(binding = 12, scalar) writeonly buffer Depths { float depths[]; };
 layout(push_constant, scalar) uniform Push { ShadeParams params; };
@@ -39,9 +39,14 @@ layout(push_constant, scalar) uniform Push { ShadeParams params; };
 
 vec3 blend(vec3 a, vec3 b, vec3 c, vec3 weights) { return weights.x * a + weights.y * b + weights.z * c; }
 
-vec3 world_at(samplerBuffer source, uint vertex, Receiver h) {
-    int i = int(h.segment * params.grid.vertex_stride + vertex);
-    return mix(texelFetch(source, i).xyz, texelFetch(source, i + int(params.grid.vertex_stride)).xyz, h.local_time);
+vec3 position_at(uint vertex, Receiver h) {
+    uint i = h.segment * params.grid.vertex_stride + vertex;
+    return mix(fetch_positions(i).xyz, fetch_positions(i + params.grid.vertex_stride).xyz, h.local_time);
+}
+
+vec3 normal_at(uint vertex, Receiver h) {
+    uint i = h.segment * params.grid.vertex_stride + vertex;
+    return mix(fetch_normals(i).xyz, fetch_normals(i + params.grid.vertex_stride).xyz, h.local_time);
 }
 
 // Shortest spherical interpolation of unit quaternions (x, y, z, w).
@@ -62,15 +67,15 @@ vec3 forward_of(vec4 q) {
 
 // Incoming light times cosine, without visibility.
 vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
-    int head = int(light * (kLightHead + kLightPerKey * params.key_count));
-    vec4 color_kind = texelFetch(lights, head);
-    vec4 cone = texelFetch(lights, head + 1);
-    int key = head + int(kLightHead + kLightPerKey * h.segment);
-    vec3 origin = texelFetch(lights, key).xyz;
-    vec4 rotation = texelFetch(lights, key + 1);
+    uint head = light * (kLightHead + kLightPerKey * params.key_count);
+    vec4 color_kind = fetch_lights(head);
+    vec4 cone = fetch_lights(head + 1u);
+    uint key = head + kLightHead + kLightPerKey * h.segment;
+    vec3 origin = fetch_lights(key).xyz;
+    vec4 rotation = fetch_lights(key + 1u);
     if (kLightsMove) {
-        origin = mix(origin, texelFetch(lights, key + 2).xyz, h.local_time);
-        rotation = slerp(rotation, texelFetch(lights, key + 3), h.local_time);
+        origin = mix(origin, fetch_lights(key + 2u).xyz, h.local_time);
+        rotation = slerp(rotation, fetch_lights(key + 3u), h.local_time);
     }
     vec3 axis = forward_of(rotation);
     bool spot = floatBitsToUint(color_kind.w) == kLightSpot;
@@ -85,8 +90,8 @@ vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
 }
 
 // The share of the light that reaches the hit at `place`.
-float visibility(int place, uint light) {
-    return kFractional ? uintBitsToFloat(texelFetch(lit, int(light * params.lit_stride) + place).x) : float((texelFetch(lit, place).x >> light) & 1u);
+float visibility(uint place, uint light) {
+    return kFractional ? uintBitsToFloat(fetch_lit(light * params.lit_stride + place)) : float((fetch_lit(place) >> light) & 1u);
 }
 
 void main() {
@@ -114,38 +119,38 @@ void main() {
         uint entry = kNone;
         while (entry == kNone && s < params.stratum_count) {
             place = (tile_in_batch * params.stratum_count + s) * kTileTexels + texel;
-            entry = texelFetch(hits, int(place)).x;
+            entry = fetch_hits(place);
             ++s;
         }
         if (entry != kNone) {
             uint stratum = params.stratum_first + s - 1u;
             vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.stratum_length, params.seed);
             Receiver h = fetch_receiver(entry, pixel, point, stratum, params.spp, grid, kStraddle, kOrthographic);
-            vec3 w0 = world_at(positions, h.vertex.x, h), w1 = world_at(positions, h.vertex.y, h), w2 = world_at(positions, h.vertex.z, h);
+            vec3 w0 = position_at(h.vertex.x, h), w1 = position_at(h.vertex.y, h), w2 = position_at(h.vertex.z, h);
             vec3 position = blend(w0, w1, w2, h.barycentrics);
             // Seen in positive orientation, the normal of the triangle's own winding points away from the camera.
             vec3 geometric = normalize(cross3(w1 - w0, w2 - w0)) * ((entry & kReversed) != 0u ? 1.0 : -1.0);
             vec3 normal = geometric;
             if (kSmooth) {
-                vec3 blended = blend(world_at(normals, h.vertex.x, h), world_at(normals, h.vertex.y, h), world_at(normals, h.vertex.z, h), h.barycentrics);
+                vec3 blended = blend(normal_at(h.vertex.x, h), normal_at(h.vertex.y, h), normal_at(h.vertex.z, h), h.barycentrics);
                 float length2 = dot(blended, blended);
                 normal = length2 > 1e-20 ? blended * inversesqrt(length2) : geometric;
                 normal = dot(normal, geometric) < 0.0 ? -normal : normal;
             }
 
-            int a0 = int(2u * h.vertex.x), a1 = int(2u * h.vertex.y), a2 = int(2u * h.vertex.z);
-            vec3 tint = blend(texelFetch(attributes, a0 + 1).xyz, texelFetch(attributes, a1 + 1).xyz, texelFetch(attributes, a2 + 1).xyz, h.barycentrics);
-            vec3 albedo = tint * uintBitsToFloat(texelFetch(materials, int(2u * h.material)).xyz);
+            uint a0 = 2u * h.vertex.x, a1 = 2u * h.vertex.y, a2 = 2u * h.vertex.z;
+            vec3 tint = blend(fetch_attributes(a0 + 1u).xyz, fetch_attributes(a1 + 1u).xyz, fetch_attributes(a2 + 1u).xyz, h.barycentrics);
+            vec3 albedo = tint * uintBitsToFloat(fetch_materials(2u * h.material).xyz);
             if (kTextures) {
-                uvec4 image = texelFetch(materials, int(2u * h.material + 1u));
-                vec2 uv = blend(texelFetch(attributes, a0).xyz, texelFetch(attributes, a1).xyz, texelFetch(attributes, a2).xyz, h.barycentrics).xy;
+                uvec4 image = fetch_materials(2u * h.material + 1u);
+                vec2 uv = blend(fetch_attributes(a0).xyz, fetch_attributes(a1).xyz, fetch_attributes(a2).xyz, h.barycentrics).xy;
                 bool textured = image.x != kNone;
                 vec4 sampled = sample_texture(textured ? image : uvec4(0u, 1u, 1u, 0u), uv);
                 albedo *= textured ? sampled.xyz : vec3(1.0);
             }
             for (uint light = 0u; light < params.light_count; ++light) {
                 vec3 arriving = incoming(light, h, position, normal);
-                color += visibility(int(place), light) * albedo * arriving * (1.0 / 3.14159265358979);
+                color += visibility(place, light) * albedo * arriving * (1.0 / 3.14159265358979);
             }
             float metres = kOrthographic ? h.depth : -1.0 / h.depth;
             hit_count += 1.0;
@@ -166,8 +171,8 @@ void main() {
         float sum_of_squares = kFractional ? film[squares] : 0.0;
         uint stratum = 0u;
         do {
-            int place = int((tile_in_batch * params.stratum_count + stratum) * kTileTexels + texel);
-            float visible = texelFetch(hits, place).x != kNone ? visibility(place, light) : 0.0;
+            uint place = (tile_in_batch * params.stratum_count + stratum) * kTileTexels + texel;
+            float visible = fetch_hits(place) != kNone ? visibility(place, light) : 0.0;
             sum += visible;
             sum_of_squares += visible * visible;
             ++stratum;

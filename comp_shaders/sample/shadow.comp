@@ -12,7 +12,7 @@
 
 // Does the triangle of a range cover (x, y) at the hit's time, nearer than `limit`?
 bool occludes(uint entry, Receiver h, float x, float y, float limit) {
-    uvec3 v = texelFetch(triangles, int(entry & ~kReversed)).xyz;
+    uvec3 v = fetch_triangles(entry & ~kReversed).xyz;
     bool reversed = (entry & kReversed) != 0u;
     vec4 p0 = light_vertex_at(v.x, h);
     vec4 p1 = light_vertex_at(reversed ? v.z : v.y, h);

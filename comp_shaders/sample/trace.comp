@@ -14,10 +14,10 @@ layout(constant_id = 1) const bool kStraddle = false;  // A stratum may lie in s
 layout(constant_id = 2) const bool kContinue = false;  // Go on from the hits of an earlier part of the lists.
 layout(constant_id = 3) const bool kSliced = false;    // Samples are slice_points.
 layout(constant_id = 4) const uint kCrew = 8u;
-layout(binding = 0) uniform usamplerBuffer bin_offsets;
-layout(binding = 1) uniform usamplerBuffer bin_entries;
-layout(binding = 2) uniform usamplerBuffer triangles;
-layout(binding = 3) uniform samplerBuffer raster_vertices;
+READ_UINT(0, bin_offsets)
+READ_UINT(1, bin_entries)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
 layout(binding = 4, scalar) buffer Hits { uint hits[]; };
 layout(binding = 5, scalar) buffer Ticket { uint ticket; };
 layout(push_constant, scalar) uniform Push { TraceParams params; };
@@ -100,15 +100,15 @@ void main() {
             }
         }
         uint list = (tile - grid.tile_first) * grid.cell_count + cell;
-        uint begin = texelFetch(bin_offsets, int(list)).x + params.list_first;
-        uint end = max(texelFetch(bin_offsets, int(list + 1u)).x, begin);
+        uint begin = fetch_bin_offsets(list) + params.list_first;
+        uint end = max(fetch_bin_offsets(list + 1u), begin);
         uint count = walked ? min(end - begin, trace_chunk(grid, params.spp)) : 0u;
         uint rounds = rounds_of(count);
         uint k = 0u;
         do {
             // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
             uint own = k + crew.place;
-            uint own_entry = own < count ? texelFetch(bin_entries, int(begin + own)).x : grid.triangle_count;
+            uint own_entry = own < count ? fetch_bin_entries(begin + own) : grid.triangle_count;
             MovingTriangle own_triangle = fetch_moving_triangle(own_entry, key_first, grid.vertex_stride);
             uint from = 0u;
             uint last = min(crew.size, rounds - k);

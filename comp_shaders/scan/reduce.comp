@@ -11,7 +11,7 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kLongest = false;  // The values are elements, not sums of them.
-layout(binding = 0) uniform usamplerBuffer values;
+READ_UVEC4(0, values)
 layout(binding = 1, scalar) writeonly buffer Runs { uint runs[]; };
 layout(binding = 2, scalar) buffer Longest { uint longest; };
 layout(push_constant, scalar) uniform Push { ScanParams params; };
@@ -24,7 +24,7 @@ void main() {
     uint sum = 0u;
     uint largest = 0u;
     while (quad < end) {
-        uvec4 v = texelFetch(values, int(quad));
+        uvec4 v = fetch_values(quad);
         sum = saturating_add(sum, v.x);
         sum = saturating_add(sum, v.y);
         sum = saturating_add(sum, v.z);

@@ -10,7 +10,7 @@
 
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const bool kLongest = false;  // The values are elements, not sums of them.
-layout(binding = 0) uniform usamplerBuffer values;
+READ_UINT(0, values)
 layout(binding = 1, scalar) writeonly buffer Sums { uint sums[]; };
 layout(binding = 2, scalar) buffer Longest { uint longest; };
 layout(push_constant, scalar) uniform Push { ScanParams params; };
@@ -20,7 +20,7 @@ void main() {
     uint largest = 0u;
     uint i = 0u;
     while (i < params.count) {
-        uint value = texelFetch(values, int(i)).x;
+        uint value = fetch_values(i);
         sums[i] = sum;
         largest = max(largest, value);
         sum = saturating_add(sum, value);

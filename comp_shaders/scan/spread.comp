@@ -9,8 +9,8 @@
 #include "common/saturate.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform usamplerBuffer values;
-layout(binding = 1) uniform usamplerBuffer runs;
+READ_UVEC4(0, values)
+READ_UINT(1, runs)
 layout(binding = 2, scalar) writeonly buffer Sums { uint sums[]; };
 layout(push_constant, scalar) uniform Push { ScanParams params; };
 
@@ -20,10 +20,10 @@ void main() {
     uint bound_first = params.run_first * kScanRun;
     uint first = run * kScanRun;
     uint end = number < params.run_count ? min(first + kScanRun, params.count) : first;
-    uint sum = texelFetch(runs, int(run)).x;
+    uint sum = fetch_runs(run);
     uint i = first;
     while (i < end) {
-        uvec4 v = texelFetch(values, int(i / 4u));
+        uvec4 v = fetch_values(i / 4u);
         uvec4 before;
         before.x = sum;
         before.y = saturating_add(before.x, v.x);

@@ -11,8 +11,8 @@
 #include "math/texel_range.h"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform usamplerBuffer triangles;
-layout(binding = 1) uniform samplerBuffer raster_vertices;
+READ_UVEC4(0, triangles)
+READ_VEC4(1, raster_vertices)
 layout(binding = 2, scalar) writeonly buffer Rects { uvec2 rects[]; };
 layout(binding = 3, scalar) buffer BlockCounts { uint block_counts[]; };
 layout(push_constant, scalar) uniform Push { PrismParams params; };

@@ -8,7 +8,7 @@
 #include "common/stage.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform samplerBuffer positions;
+READ_VEC4(0, positions)
 layout(binding = 1, scalar) writeonly buffer RasterVertices { vec4 raster_vertices[]; };
 layout(push_constant, scalar) uniform Push { ProjectParams params; };
 
@@ -18,6 +18,6 @@ void main() {
     uint v = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (v >= params.vertex_count) return;
     // The origin first: near the view nothing is lost to cancellation.
-    vec3 p = texelFetch(positions, int(params.vertex_first + v)).xyz - params.origin;
+    vec3 p = fetch_positions(params.vertex_first + v).xyz - params.origin;
     raster_vertices[v] = vec4(row_times(params.row_x, p), row_times(params.row_y, p), row_times(params.row_z, p), row_times(params.row_w, p));
 }

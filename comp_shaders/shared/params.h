@@ -23,14 +23,22 @@ const uint kSmallTiles = 4u;
 // them.
 const uint kBlockTiles = 8u;
 const uint kMostBlocks = 256u;
-// Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, all its loops
-// together, without a word, and raster/conservative goes round up to 10 times for an entry: for itself, and for each of up to 8
-// rows; and once more for each crew of entries (common/crew.glsl).
+// lavapipe ends every loop after so many turns of an invocation, all its loops together, without a word. What depends on the
+// scene is walked in parts.
+const uint kMostTurns = 65535u;
+// Most list entries that one dispatch walks: raster/conservative goes round up to 10 times for an entry: for itself, for each
+// of up to 8 rows, and once for each crew of entries (common/crew.glsl).
 const uint kListChunk = 6144u;
 // Fragments of a list that one dispatch of raster/prism pairs, up to the end of a prism's.
 const uint kPairChunk = 32768u;
 // Elements that one invocation scans.
 const uint kScanRun = 64u;
+#ifdef __cplusplus
+static_assert(kListChunk * 10u < kMostTurns && kPairChunk < kMostTurns && kMostBlocks < kMostTurns);
+#endif
+
+// Strata of a batch: sample/shade goes round twice for each, and twice for each of its lights.
+GN_FN uint most_strata_of(uint light_count) { return kMostTurns / (2u * light_count + 3u); }
 
 // A view's image and how its prisms are listed.
 struct ViewGrid {

@@ -25,11 +25,15 @@ struct Limits {
     uint64_t max_storage_range = 0;  ///< Bytes of one storage-buffer binding (128 MiB on lavapipe).
     uint64_t storage_alignment = 1;  ///< Of a storage binding's offset.
     uint64_t max_texels = 0;         ///< Elements of one texel-buffer binding.
+    bool storage_reads = false;      ///< Stages read through storage buffers, not through texel buffers.
     uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
     uint32_t subgroup_size = 1;
     uint32_t crew = 8;  ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
     bool is_cpu = false;
+
+    /// Elements of so many bytes that a stage can read through one binding.
+    uint64_t most_elements(uint64_t bytes) const { return storage_reads ? max_storage_range / bytes : max_texels; }
 };
 
 class Device;

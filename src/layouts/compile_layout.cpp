@@ -97,7 +97,7 @@ private:
     throw Error(ErrorKind::input, "layout does not compile: " + what, where, kHint);
 }
 
-std::vector<uint32_t> compile(const std::string& stage, const Layout& layout) {
+std::vector<uint32_t> compile(const std::string& stage, const Layout& layout, bool storage_reads) {
     struct Process {
         Process() { glslang::InitializeProcess(); }
         ~Process() { glslang::FinalizeProcess(); }
@@ -114,6 +114,7 @@ std::vector<uint32_t> compile(const std::string& stage, const Layout& layout) {
     // As glslangValidator --target-env vulkan1.3.
     glslang::TShader shader(EShLangCompute);
     shader.setStringsWithLengthsAndNames(&text, &length, &text_name, 1);
+    if (storage_reads) shader.setPreamble("#define GN_STORAGE_READS\n");
     shader.setEnvInput(glslang::EShSourceGlsl, EShLangCompute, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
@@ -146,7 +147,7 @@ std::vector<gpu::Resource> promised(const Layout& layout, bool writes) {
     return result;
 }
 
-void check_buffers(const std::vector<uint32_t>& words, const std::string& stage, const Layout& layout) {
+void check_buffers(const std::vector<uint32_t>& words, const std::string& stage, const Layout& layout, bool storage_reads) {
     const std::string where = (layout.folder / "layout.json").string();
     std::vector<gpu::Resource> declared;
     try {
@@ -164,7 +165,8 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
             throw Error(ErrorKind::input, "layout.glsl declares no '" + e.name + "' at binding 16 or up for " + stage, where,
                         kHint);
         }
-        if (d->kind != e.kind) {
+        // What is declared by READ_... is a storage buffer in that variant.
+        if (d->kind != e.kind && !(storage_reads && d->kind == gpu::ResourceKind::storage_buffer)) {
             throw Error(ErrorKind::input, "'" + e.name + "' is of another kind or format in layout.glsl", where, kHint);
         }
     }
@@ -177,9 +179,9 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
 
 }  // namespace
 
-std::vector<uint32_t> compile_stage(const std::string& stage, const Layout& layout) {
-    std::vector<uint32_t> words = compile(stage, layout);
-    check_buffers(words, stage, layout);
+std::vector<uint32_t> compile_stage(const std::string& stage, const Layout& layout, bool storage_reads) {
+    std::vector<uint32_t> words = compile(stage, layout, storage_reads);
+    check_buffers(words, stage, layout, storage_reads);
     return words;
 }
 

@@ -96,8 +96,8 @@ std::map<std::string, uint64_t> DepthMap::counts() const {
 std::vector<Band> DepthMap::bands(uint64_t bytes) const {
     const uint64_t texels = uint64_t(tile_count_) * shared::kTileTexels, stratum_bytes = texels * sample_bytes();
     const gpu::Limits& limits = light_.device.limits();
-    const uint64_t most =
-        std::min({bytes / stratum_bytes, limits.max_storage_range / stratum_bytes, limits.max_texels / texels});
+    const uint64_t most = std::min({bytes / stratum_bytes, limits.max_storage_range / stratum_bytes,
+                                    limits.most_elements(4) / (texels * sample_floats())});
     if (most == 0) {
         throw Error(ErrorKind::out_of_memory, "one stratum of a light's map takes " + std::to_string(stratum_bytes) + " bytes",
                     "shadow map", "allow a larger --memory-budget or use a smaller --shadow-res");
@@ -126,9 +126,7 @@ void DepthMap::fill(const Band& band) {
     recorder.submit();
 }
 
-std::vector<gpu::Binding> DepthMap::read_bindings() const {
-    return {{"map_samples", &samples_, motion() ? Texel::rg32_float : Texel::r32_float}};
-}
+std::vector<gpu::Binding> DepthMap::read_bindings() const { return {{"map_samples", &samples_, Texel::r32_float}}; }
 
 std::vector<uint32_t> DepthMap::test_constants() const {
     std::vector<uint32_t> all = map_bias(light_).constants();

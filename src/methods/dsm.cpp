@@ -65,7 +65,7 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
       unbound_(light.device, 3) {
     gpu::Device& device = light.device;
     const uint64_t texels = uint64_t(tile_count_) * shared::kTileTexels;
-    if ((texels + 1) * 4 > std::min(device.limits().max_storage_range, device.limits().max_texels * 4)) {
+    if ((texels + 1) * 4 > std::min(device.limits().max_storage_range, device.limits().most_elements(4) * 4)) {
         throw Error(ErrorKind::out_of_memory,
                     std::to_string(texels) + " texels of a light's map are more than the device can bind", "shadow map",
                     "use a smaller --shadow-res");
@@ -81,7 +81,7 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
         for (uint32_t tile = 0; tile < tile_count_; tile += step)
             pieces.push_back(make_clusters(tracer, samples, tile, std::min(step, tile_count_ - tile)));
     }
-    if (cluster_count_ > std::min<uint64_t>(device.limits().max_texels, 0xffffffffull)) {
+    if (cluster_count_ > std::min<uint64_t>(device.limits().most_elements(8), 0xffffffffull)) {
         throw Error(ErrorKind::out_of_memory, std::to_string(cluster_count_) + " clusters in a light's map", "shadow map",
                     "use a smaller --shadow-res or a larger --cluster");
     }

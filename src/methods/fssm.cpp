@@ -123,7 +123,7 @@ uint32_t Fssm::rows_at_once(uint32_t row_count) const {
     const gpu::Limits& limits = light_.device.limits();
     const auto fits = [&](uint32_t rows) {
         const uint64_t texels = window_texels(rows), samples = texels * sampling_.spp;
-        return samples * kSampleBytes <= row_count * row_bytes() && samples <= limits.max_texels &&
+        return samples * kSampleBytes <= row_count * row_bytes() && samples <= limits.most_elements(16) &&
                texels * kSampleBytes <= limits.max_storage_range && (rows + 1) * row_bytes() <= limits.max_storage_range;
     };
     uint32_t rows = row_count;
@@ -151,7 +151,7 @@ std::vector<Band> Fssm::bands(uint64_t bytes) const {
         const uint64_t tuples = uint64_t(in_memory(count)) * tiles_x_ * layer_count_ * tuple_count_;
         const uint64_t samples = window_texels(rows_at_once(in_memory(count))) * sampling_.spp;
         const uint64_t texels = std::max(tuples, samples);
-        return needed(count) <= bytes && texels <= limits.max_texels && texels * kTupleBytes <= limits.max_buffer_bytes;
+        return needed(count) <= bytes && texels <= limits.most_elements(16) && texels * kTupleBytes <= limits.max_buffer_bytes;
     };
     uint32_t most = rows_;
     while (most > 0 && !fits(most)) --most;

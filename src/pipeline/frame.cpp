@@ -126,7 +126,8 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     if (method.has_s_buffer() && !layout.folder.empty()) {
         std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
         if (settings.keep_texel_ranges) stages.emplace_back("raster/texel_ranges");
-        for (const std::string& stage : stages) programs.add(layout.stage(stage), compile_stage(stage, layout));
+        for (const std::string& stage : stages)
+            programs.add(layout.stage(stage), compile_stage(stage, layout, device.limits().storage_reads));
     }
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;
@@ -184,7 +185,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         store(frame, sampler.resolve(), rect_of(view, windows[w]));
     }
     if (progress) progress(1.0);
-    if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges(frame.light_count);
+    if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges();
 
     frame.stats = statistics(device, shadows);
     shadows.report(frame);

@@ -20,8 +20,8 @@ void release_side(LightSide& side) {
 }  // namespace
 
 Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses, const Bounds& bounds)
-    : shared_(std::move(shared)) {
-    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+    : shared_(std::move(shared)), light_count_(static_cast<uint32_t>(scene.lights.size())) {
+    for (uint32_t i = 0; i < light_count_; ++i) {
         if (scene.lights[i].kind == LightKind::point) continue;
         Light& light = lights_.emplace_back();
         light.side.light_ix = i;
@@ -40,10 +40,10 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
 uint64_t Lights::most_tiles(const LightContext& context) const {
     const gpu::Limits& limits = shared_.device.limits();
     const uint64_t cells = shared_.method.light_cells(context);
-    const uint64_t lists = std::min(limits.max_storage_range / 4, limits.max_texels) - shared::kScanRun;
+    const uint64_t lists = std::min(limits.max_storage_range / 4, limits.most_elements(4)) - shared::kScanRun;
     uint64_t most = lists / cells;
     if (shared_.method.has_s_buffer())
-        most = std::min(most, (limits.max_texels - shared::kScanRun) / (cells * shared::kTileTexels));
+        most = std::min(most, (limits.most_elements(4) - shared::kScanRun) / (cells * shared::kTileTexels));
     return most;
 }
 
@@ -125,7 +125,7 @@ void Lights::make(size_t light, size_t window) {
 
 uint32_t Lights::most_strata() const {
     const uint32_t spp = shared_.settings.spp;
-    uint32_t most = spp;
+    uint32_t most = std::min(spp, shared::most_strata_of(light_count_));
     for (const Light& light : lights_) {
         if (light.side.bands.empty()) continue;
         const double longest = light.side.bands[0].t_close - light.side.bands[0].t_open;
@@ -168,8 +168,8 @@ double Lights::map_seconds(const std::string& stage) const {
     return found == seconds_.end() ? 0.0 : found->second;
 }
 
-std::vector<std::vector<uint32_t>> Lights::texel_ranges(uint32_t light_count) {
-    std::vector<std::vector<uint32_t>> all(light_count);
+std::vector<std::vector<uint32_t>> Lights::texel_ranges() {
+    std::vector<std::vector<uint32_t>> all(light_count_);
     for (size_t i = 0; i < lights_.size(); ++i) {
         Light& light = lights_[i];
         std::vector<uint32_t>& sums = all[light.side.light_ix];

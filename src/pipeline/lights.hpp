@@ -33,7 +33,8 @@ public:
     /// Free what can be made again; false where there is nothing.
     bool release();
 
-    /// Strata that are best sampled together: where a map is cut in time, so are the samples, so that it is filled once.
+    /// Most strata of a batch: what shading can walk; and where a map is cut in time, so are the samples, so that it is filled
+    /// once.
     uint32_t most_strata() const;
     /// Test the sampler's hits, of the batch, against every light.
     void test_shadows(Sampler& sampler, const Batch& batch, float tolerance);
@@ -43,7 +44,7 @@ public:
     /// Seconds of a stage that went into what the shadow tests read.
     double map_seconds(const std::string& stage) const;
     /// As Frame::texel_ranges.
-    std::vector<std::vector<uint32_t>> texel_ranges(uint32_t light_count);
+    std::vector<std::vector<uint32_t>> texel_ranges();
 
 private:
     struct Light {
@@ -63,6 +64,7 @@ private:
     uint64_t share() const;  ///< Bytes for the bands of one light.
 
     Shared shared_;
+    uint32_t light_count_;  ///< Point lights among them.
     std::vector<Light> lights_;
     std::vector<LightContext> contexts_;  ///< Of each light; its map refers to it.
     std::exception_ptr failure_;          ///< Why something did not fit.

@@ -13,8 +13,6 @@ constexpr uint32_t kMostCells = 16;
 constexpr uint32_t kLightCells = 4;
 // Enough samples to keep any device busy; the buffers of a batch stay small.
 constexpr uint64_t kBatchSlots = 4u << 20;
-// A loop over a batch's strata must end before lavapipe's limit of iterations, with all its lights.
-constexpr uint32_t kMostStrata = 1024;
 constexpr uint64_t kSlotBytes = 16;
 
 // A window of a tile, a batch of a few samples, and what is binned with them.
@@ -69,13 +67,20 @@ void check_scene(const gpu::Device& device, const Scene& scene, const std::vecto
     const std::vector<SceneBuffer> posing = posing_buffers(scene, poses.size(), poses.front());
     for (const std::vector<SceneBuffer>* buffers : {&kept, &posing}) {
         for (const SceneBuffer& b : *buffers) {
-            const uint64_t most = std::min(limits.max_texels, limits.max_buffer_bytes / b.bytes - 1);
+            const uint64_t most = std::min(limits.most_elements(b.bytes), limits.max_buffer_bytes / b.bytes - 1);
             if (b.elements <= most) continue;
             throw Error(ErrorKind::out_of_memory,
                         std::to_string(b.elements) + " " + b.what + " are more than the " + std::to_string(most) +
                             " that the device can bind",
                         scene.path.string(), b.hint);
         }
+    }
+    uint32_t targets = 0, influences = 0;
+    for (const Morph& morph : scene.morphs) targets = std::max(targets, morph.target_count);
+    for (const Vertex& vertex : scene.vertices) influences = std::max(influences, vertex.influence_count);
+    if (uint64_t(targets) + influences >= shared::kMostTurns) {
+        throw Error(ErrorKind::input, std::to_string(targets) + " morph targets of a mesh", scene.path.string(),
+                    "use fewer than " + std::to_string(shared::kMostTurns - influences));
     }
     // The camera's view of the vertices, and one light's.
     const uint64_t views = (scene.lights.empty() ? 1 : 2) * kept[1].elements * kept[1].bytes;
@@ -124,7 +129,7 @@ uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, 
     const gpu::Limits& limits = device.limits();
     const uint64_t all = uint64_t(tiles_across(view)) * tiles_down(view) * spp * shared::kTileTexels;
     const uint64_t most = std::min({kBatchSlots, all, device.budget_left() / 4 / (kSlotBytes + 4 * uint64_t(visibilities)),
-                                    limits.max_storage_range / 8, limits.max_texels / std::max(1u, visibilities)});
+                                    limits.max_storage_range / 8, limits.most_elements(4) / std::max(1u, visibilities)});
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }
 
@@ -135,7 +140,7 @@ uint64_t film_tiles(const gpu::Device& device, uint32_t planes) {
 
 std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t most_slots, uint32_t most_strata) {
     uint64_t items = most_slots / shared::kTileTexels;
-    uint32_t strata = static_cast<uint32_t>(std::min<uint64_t>({spp, items, kMostStrata, most_strata}));
+    uint32_t strata = static_cast<uint32_t>(std::min<uint64_t>({spp, items, most_strata}));
     uint32_t tile_step = static_cast<uint32_t>(std::min<uint64_t>(window.tile_count, items / strata));
     std::vector<Batch> batches;
     for (uint32_t s = 0; s < spp; s += strata) {

@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-/// That the scene's own data can be bound and fits into the budget, beside a little to work with; everything else is cut to fit.
-/// Errors: ErrorKind::out_of_memory, saying how much would do.
+/// That the scene's own data can be bound and fits into the budget, beside a little to work with; everything else is cut to
+/// fit. Errors: ErrorKind::out_of_memory, saying how much would do.
 void check_scene(const gpu::Device& device, const Scene& scene, const std::vector<Pose>& poses, uint64_t budget);
 
 /// Nothing moves between the poses: no vertex, camera or light.
@@ -34,6 +34,6 @@ uint64_t film_tiles(const gpu::Device& device, uint32_t planes);
 
 /// Batches that cover every tile and stratum of the window once, of at most `most_strata` strata; for each tile the strata in
 /// order.
-std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t most_slots, uint32_t most_strata = ~0u);
+std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t most_slots, uint32_t most_strata);
 
 }  // namespace gnomon

@@ -11,7 +11,8 @@
 namespace gnomon {
 
 /// SPIR-V embedded at build time under a stage's name: "sample/trace", or "sample/shadow@array" where the stage depends on the
-/// layout. Errors: ErrorKind::internal if there is none.
+/// layout; with "+storage" behind it, the variant whose read-only data are storage buffers. Errors: ErrorKind::internal if
+/// there is none.
 gpu::Shader find_shader(const std::string& name);
 
 class Programs {

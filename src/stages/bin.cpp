@@ -14,9 +14,9 @@ namespace {
 
 using gpu::Texel;
 
-// lavapipe ends an invocation's loops after 65,535 turns: a block's rounds in bin/large, a prism's blocks in bin/blocks.
+// A block's rounds in bin/large.
 constexpr uint32_t kMostTiles = (16384 / shared::kTileSize) * (16384 / shared::kTileSize);
-static_assert(kMostTiles / (shared::kMostBlocks * shared::kBlockTiles) < 65535 && shared::kMostBlocks < 65535);
+static_assert(kMostTiles / (shared::kMostBlocks * shared::kBlockTiles) < shared::kMostTurns);
 
 // Rectangles, and blocks, in memory at one time: what they take is seldom more.
 constexpr uint64_t kRectBytes = uint64_t{64} << 20;
@@ -52,14 +52,14 @@ public:
           bins_(bins) {
         const gpu::Limits& limits = device.limits();
         const uint64_t cells = bins.grid.cell_count;
-        const uint64_t bytes = std::min({kRectBytes, limits.max_storage_range, limits.max_texels * sizeof(glm::uvec2),
+        const uint64_t bytes = std::min({kRectBytes, limits.max_storage_range, limits.most_elements(8) * sizeof(glm::uvec2),
                                          std::max(kLeastBytes, device.budget_left() / 8)});
         const uint64_t most =
             std::max<uint64_t>(kTriangleAlign, bytes / (cells * sizeof(glm::uvec2)) & ~(kTriangleAlign - 1ull));
         chunk_ = static_cast<uint32_t>(
             std::min<uint64_t>(most, groups_of(geometry.triangle_count, kTriangleAlign) * kTriangleAlign));
         // Blocks of a part of one cell's triangles fit into one binding even if all are as large as can be.
-        most_blocks_ = static_cast<uint32_t>(std::min(bytes / sizeof(glm::uvec2), limits.max_texels));
+        most_blocks_ = static_cast<uint32_t>(bytes / sizeof(glm::uvec2));
         part_log2_ = static_cast<uint32_t>(std::bit_width(std::max(kTriangleAlign, most_blocks_ / shared::kMostBlocks)) - 1);
         parts_ = static_cast<uint32_t>(groups_of(chunk_, 1ull << part_log2_));
         rects_ = device.allocate("rects", cells * chunk_ * sizeof(glm::uvec2));
@@ -217,7 +217,7 @@ void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geomet
     bins.offsets = gpu::Buffer();
     bins.entries = gpu::Buffer();
     const uint64_t list_count = uint64_t(window.tile_count) * bins.grid.cell_count;
-    if (scan_bytes(list_count) > std::min(limits.max_storage_range, limits.max_texels * 4))
+    if (scan_bytes(list_count) > std::min(limits.max_storage_range, limits.most_elements(4) * 4))
         fail_lists(view, std::to_string(list_count) + " lists");
     bins.offsets = device.allocate("bin_offsets", scan_bytes(list_count));
     gpu::Buffer cursors = device.allocate("bin_cursors", scan_bytes(list_count));  // First the counts.
@@ -233,7 +233,7 @@ void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geomet
     bins.entry_count = gpu::download_vector<uint32_t>(device, bins.offsets, 1, list_count * 4)[0];
     bins.longest = longest_of(device, scan);
     if (bins.entry_count == shared::kNone) fail_lists(view, "more than 2^32 prisms");
-    if (bins.entry_count > std::min(limits.max_storage_range / 4, limits.max_texels))
+    if (bins.entry_count > std::min(limits.max_storage_range / 4, limits.most_elements(4)))
         fail_lists(view, std::to_string(bins.entry_count) + " prisms");
     bins.entries = device.allocate("bin_entries", uint64_t(bins.entry_count) * 4);
     if (bins.entry_count > 0) lister.run(recorder, true, cursors, bins.entries);

@@ -13,7 +13,7 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometr
                           bool orthographic, bool cull_back_faces) {
     const uint32_t items = bins.item_count();
     const uint64_t item_bytes = uint64_t(shared::kTileTexels) * 4, bytes = items * item_bytes;
-    if (uint64_t(items) * shared::kTileTexels > device.limits().max_texels) {
+    if (uint64_t(items) * shared::kTileTexels > device.limits().most_elements(4)) {
         throw Error(ErrorKind::out_of_memory, "the coverage map of a light's view is more than the device can bind", "S-buffer",
                     "use a smaller --shadow-res");
     }

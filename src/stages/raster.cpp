@@ -27,7 +27,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
       unbound_(device, layout.buffers.size()) {
     item_count_ = raster_->item_count();
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;
-    if (list_count_ + 1 > device.limits().max_texels) {
+    if (list_count_ + 1 > device.limits().most_elements(4)) {
         throw Error(ErrorKind::out_of_memory,
                     std::to_string(list_count_) + " lists in a light's view are more than the device can bind", "S-buffer",
                     "use a smaller --shadow-res");
@@ -167,7 +167,7 @@ void SBuffer::count() {
 
 std::vector<Band> SBuffer::bands(uint64_t bytes) const {
     // What the device can read through one texel buffer bounds a band too.
-    uint64_t most = std::min(bytes / std::max<uint64_t>(1, bytes_per_range()), device_.limits().max_texels);
+    uint64_t most = std::min(bytes / std::max<uint64_t>(1, bytes_per_range()), device_.limits().most_elements(16));
     most = most > 2 * kRangeAlign ? most - 2 * kRangeAlign : 1;
     std::vector<Band> result(1);
     for (size_t i = 0; i < block_ranges_.size(); ++i) {

@@ -7,6 +7,7 @@
 #include <gnomon/error.hpp>
 #include <iostream>
 
+#include "methods/method.hpp"
 #include "scenes/scene_makers.hpp"
 #include "shapes.hpp"
 
@@ -101,6 +102,65 @@ TEST_P(Budget, PictureDoesNotDependOnIt) {
 
 INSTANTIATE_TEST_SUITE_P(Layouts, Budget, testing::Values("array", "linked"),
                          [](const auto& tested) { return std::string(tested.param); });
+
+// Every method, with less and less room: maps in windows and bands, films in parts, few samples at a time.
+TEST(Budget, HoldsForEveryMethod) {
+    MovingTriangles scene = still_life(2);
+    scene.add(spot(0.6f, 0.3f, 20.0f), {at({2.0, 5.0, 1.0}, {0.0, 0.5, 0.0})});
+    const PosedScene posed = scene;
+    for (const Method& method : methods()) {
+        SCOPED_TRACE(method.name);
+        RenderSettings settings = small_settings(72, 50, 6, 200);
+        settings.method = method.name;
+        if (method.name == "accumulate") settings.parameters["slices"] = 12;
+        const Frame whole = shared_renderer().render(posed.scene, posed.poses, settings);
+        for (const uint64_t mebibytes : {12u, 7u, 5u}) {
+            settings.memory_budget = mebibytes << 20;
+            const Frame frame = shared_renderer().render(posed.scene, posed.poses, settings);
+            EXPECT_EQ(hash_of(frame), hash_of(whole)) << mebibytes << " MiB";
+            EXPECT_LE(frame.stats.peak_bytes, settings.memory_budget);
+        }
+    }
+}
+
+// More lights than there is room for: each is made when it is tested.
+TEST(Budget, HoldsForManyLights) {
+    MovingTriangles scene = still_life(1);
+    for (int i = 1; i < 32; ++i) scene.add(sun(0.3f), {{glm::dvec3(0.0), looking({0.1 * i - 1.6, -1.0, 0.3})}});
+    const PosedScene posed = scene;
+    RenderSettings settings = small_settings(72, 50, 6, 160);
+    const Frame whole = shared_renderer().render(posed.scene, posed.poses, settings);
+    settings.memory_budget = 6u << 20;
+    ASSERT_GT(whole.stats.peak_bytes, 4 * settings.memory_budget);
+    const Frame frame = shared_renderer().render(posed.scene, posed.poses, settings);
+    EXPECT_EQ(hash_of(frame), hash_of(whole));
+    EXPECT_LE(frame.stats.peak_bytes, settings.memory_budget);
+    for (const char* count : {"ranges.0", "ranges.31", "bin_entries.7"})
+        EXPECT_EQ(frame.stats.counts.at(count), whole.stats.counts.at(count)) << count;
+}
+
+// What is refused says what would do, before any work; and that does.
+TEST(Budget, TheLeastThatIsNamedIsEnough) {
+    const PosedScene posed = load_posed(made_file("figure_20000", [](const auto& path) {
+        makers::make_figure(path, {20000, true});
+    }));
+    RenderSettings settings = small_settings(64, 48, 4, 256);
+    const Frame whole = shared_renderer().render(posed.scene, posed.poses, settings);
+    settings.memory_budget = 1u << 20;
+    std::string message;
+    try {
+        shared_renderer().render(posed.scene, posed.poses, settings);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::out_of_memory);
+        message = error.what();
+    }
+    const std::string before = "use --memory-budget ";
+    ASSERT_THAT(message, testing::HasSubstr(before));
+    settings.memory_budget = std::stoull(message.substr(message.find(before) + before.size())) << 20;
+    const Frame frame = shared_renderer().render(posed.scene, posed.poses, settings);
+    EXPECT_EQ(hash_of(frame), hash_of(whole));
+    EXPECT_LE(frame.stats.peak_bytes, settings.memory_budget);
+}
 
 // Offsets of all lists of a view, in several cells of time, may take more than one binding holds.
 TEST(Budget, ListsOfManyTexelsAndSegments) {

@@ -3,6 +3,7 @@
 // seen.
 #include "stages/bin.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -85,6 +86,50 @@ TEST_F(BinTest, SmallestImages) {
         Soup soup(1, size.x, size.y, true);
         soup.add_prisms(300, random);
         expect_complete(soup, 2);
+    }
+}
+
+// Cut into windows the view has the lists that it has whole.
+TEST_F(BinTest, ListsOfWindowsAreThoseOfTheView) {
+    std::mt19937 random(14);
+    for (bool orthographic : {false, true}) {
+        Soup soup(2, 150, 77, orthographic);
+        soup.add_prisms(300, random);
+        const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
+        const View view = soup.view();
+        constexpr uint32_t kCells = 4;
+        std::vector<std::vector<uint32_t>> expected = run(soup, kCells).lists;
+        for (auto& list : expected) std::sort(list.begin(), list.end());
+        for (const uint64_t most_tiles : {1000u, 40u, 19u, 7u, 1u}) {
+            Bins bins = project_prisms(device(), programs(), geometry, view, kCells);
+            std::vector<std::vector<uint32_t>> found;
+            for (const Window& window : windows_of(view, most_tiles)) {
+                ASSERT_LE(window.tile_count, most_tiles);
+                list_prisms(device(), programs(), geometry, view, window, Listing::swept, bins);
+                for (auto& list : read_bins(device(), bins)) {
+                    std::sort(list.begin(), list.end());
+                    found.push_back(list);
+                }
+            }
+            EXPECT_EQ(found, expected) << "windows of " << most_tiles << " tiles, orthographic " << orthographic;
+        }
+    }
+}
+
+// The largest view has four million tiles; lavapipe ends an invocation's loops after 65,535 turns.
+TEST_F(BinTest, APrismIsListedInAllTilesOfTheLargestView) {
+    Soup soup(1, 16384, 16384, true);
+    for (const float depth : {2.0f, 1.0f}) {
+        const glm::vec4 corners[] = {{-40000, -9000, depth, 1}, {40000, -9000, depth, 1}, {0, 60000, depth, 1}};
+        glm::uvec3 triangle;
+        for (int i = 0; i < 3; ++i) triangle[i] = soup.add_vertex({corners[i], corners[i]});
+        soup.triangles.push_back(triangle);
+    }
+    for (const Listing listing : {Listing::swept, Listing::bounds}) {
+        const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
+        const Bins bins = bin_prisms(device(), programs(), geometry, soup.view(), 1, listing);
+        EXPECT_EQ(bins.longest, 2u);
+        EXPECT_EQ(bins.entry_count, 2u * 2048u * 2048u);
     }
 }
 

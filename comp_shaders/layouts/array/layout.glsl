@@ -22,18 +22,18 @@ void layout_emit(uint cursor, vec4 range, float exit_depth) {
 #endif
 
 #ifdef LAYOUT_READ
-layout(binding = 16) uniform usamplerBuffer list_offsets;
-layout(binding = 17) uniform samplerBuffer ranges;
+READ_UINT(16, list_offsets)
+READ_VEC4(17, ranges)
 
 // x: the next range, y: the end of the list.
-ListIterator layout_begin(uint list) { return ListIterator(texelFetch(list_offsets, int(list)).x, texelFetch(list_offsets, int(list + 1u)).x); }
+ListIterator layout_begin(uint list) { return ListIterator(fetch_list_offsets(list), fetch_list_offsets(list + 1u)); }
 ListIterator layout_end() { return ListIterator(0u, 0u); }
 bool layout_more(ListIterator it) { return it.x < it.y; }
-vec4 layout_next(inout ListIterator it) { return texelFetch(ranges, int(it.x++ - range_base())); }
+vec4 layout_next(inout ListIterator it) { return fetch_ranges(it.x++ - range_base()); }
 #define LAYOUT_INDEXED  // A range can be fetched by its place, the x that the iterator had before it.
-vec4 layout_at(uint place) { return texelFetch(ranges, int(place - range_base())); }
+vec4 layout_at(uint place) { return fetch_ranges(place - range_base()); }
 #ifdef GN_RANGE_EXIT
-layout(binding = 18) uniform samplerBuffer range_exits;
-float layout_exit_depth(ListIterator it) { return texelFetch(range_exits, int(it.x - range_base())).x; }
+READ_FLOAT(18, range_exits)
+float layout_exit_depth(ListIterator it) { return fetch_range_exits(it.x - range_base()); }
 #endif
 #endif

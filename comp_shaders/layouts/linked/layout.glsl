@@ -26,21 +26,21 @@ void layout_emit(uint list, vec4 range, float exit_depth) { range_exits[append(l
 #endif
 
 #ifdef LAYOUT_READ
-layout(binding = 16) uniform usamplerBuffer list_heads;
-layout(binding = 17) uniform samplerBuffer ranges;
-layout(binding = 18) uniform usamplerBuffer links;
+READ_UINT(16, list_heads)
+READ_VEC4(17, ranges)
+READ_UINT(18, links)
 
 // x: the next node, or kNone.
-ListIterator layout_begin(uint list) { return ListIterator(texelFetch(list_heads, int(list)).x, 0u); }
+ListIterator layout_begin(uint list) { return ListIterator(fetch_list_heads(list), 0u); }
 ListIterator layout_end() { return ListIterator(kNone, 0u); }
 bool layout_more(ListIterator it) { return it.x != kNone; }
 vec4 layout_next(inout ListIterator it) {
-    int node = int(it.x - range_base());
-    it.x = texelFetch(links, node).x;
-    return texelFetch(ranges, node);
+    uint node = it.x - range_base();
+    it.x = fetch_links(node);
+    return fetch_ranges(node);
 }
 #ifdef GN_RANGE_EXIT
-layout(binding = 19) uniform samplerBuffer range_exits;
-float layout_exit_depth(ListIterator it) { return texelFetch(range_exits, int(it.x - range_base())).x; }
+READ_FLOAT(19, range_exits)
+float layout_exit_depth(ListIterator it) { return fetch_range_exits(it.x - range_base()); }
 #endif
 #endif

@@ -14,9 +14,9 @@ layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const bool kStraddle = false;  // As in sample/trace.
 layout(constant_id = 2) const uint kFloats = 1u;       // Of a sample.
 layout(constant_id = 3) const bool kSliced = false;    // As in sample/trace.
-layout(binding = 0) uniform usamplerBuffer hits;
-layout(binding = 1) uniform usamplerBuffer triangles;
-layout(binding = 2) uniform samplerBuffer raster_vertices;
+READ_UINT(0, hits)
+READ_UVEC4(1, triangles)
+READ_VEC4(2, raster_vertices)
 layout(binding = 3, scalar) writeonly buffer MapSamples { float map_samples[]; };
 layout(push_constant, scalar) uniform Push { MapDepthParams params; };
 #include "common/triangle.glsl"
@@ -31,7 +31,7 @@ void main() {
     ViewGrid grid = params.grid;
     bool inside = i < params.tile_count * params.stratum_count * kTileTexels;
     i = inside ? i : 0u;
-    uint entry = texelFetch(hits, int(i)).x;
+    uint entry = fetch_hits(i);
     bool hit = entry != kNone;
     entry = hit ? entry & ~kReversed : grid.triangle_count;
     Slot s = unpack_slot(i, params.stratum_count);

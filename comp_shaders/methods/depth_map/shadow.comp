@@ -11,18 +11,19 @@
 #include "common/bias.glsl"
 
 layout(constant_id = 8) const bool kMotion = false;
-layout(binding = 16) uniform samplerBuffer map_samples;  // Depth in metres, and motion in metres per shutter.
+READ_FLOAT(16, map_samples)  // Depth in metres, and motion in metres per shutter.
 
 void main() {
     uint i = take_hit();
     ShadowTest test = shadow_test(i);
-    vec2 map_sample = texelFetch(map_samples, test.here ? int(test.list - params.range_first) : 0).xy;
+    uint place = (kMotion ? 2u : 1u) * (test.here ? test.list - params.range_first : 0u);
+    float depth = fetch_map_samples(place);
     if (kMotion) {
         uint stratum = cell_of(test.receiver.t, params.light_cell_count);
         vec3 point = sample_point(pixel_hash(test.texel.x, test.texel.y, light_seed(params.seed, params.light)), test.texel.x, test.texel.y, stratum, params.light_cell_length);
-        map_sample.x += map_sample.y * (test.receiver.t - point.z);
+        depth += fetch_map_samples(place + 1u) * (test.receiver.t - point.z);
     }
-    bool shadowed = test.here && map_sample.x < biased_metres(test.depth);
+    bool shadowed = test.here && depth < biased_metres(test.depth);
     write_lit(i, test, shadowed);
     if (kCount) add_shadow_counts(i, 1u, test.here ? 1u : 0u, test.here);
 }

@@ -11,8 +11,8 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
-layout(binding = 0) uniform samplerBuffer map_samples;
-layout(binding = 1) uniform usamplerBuffer scanned;
+READ_FLOAT(0, map_samples)
+READ_UINT(1, scanned)
 layout(binding = 2, scalar) writeonly buffer Counts { uint counts[]; };
 layout(binding = 3, scalar) writeonly buffer Clusters { vec2 clusters[]; };
 layout(binding = 4, scalar) writeonly buffer Offsets { uint offsets[]; };
@@ -22,8 +22,8 @@ void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     bool inside = i < params.tile_count * kTileTexels;
     i = inside ? i : 0u;
-    int base = int((i / kTileTexels) * params.spp * kTileTexels + (i & (kTileTexels - 1u)));
-    uint place = kFill ? texelFetch(scanned, int(i)).x : 0u;
+    uint base = (i / kTileTexels) * params.spp * kTileTexels + (i & (kTileTexels - 1u));
+    uint place = kFill ? fetch_scanned(i) : 0u;
     if (kFill && inside) offsets[params.texel_first + i] = params.cluster_first + place;
 
     uint count = 0u;
@@ -34,7 +34,7 @@ void main() {
         float nearest = kFarthest;
         uint s = 0u;
         do {
-            float z = texelFetch(map_samples, base + int(s * kTileTexels)).x;
+            float z = fetch_map_samples(base + s * kTileTexels);
             nearest = z > before ? min(nearest, z) : nearest;
             ++s;
         } while (s < params.spp);
@@ -43,7 +43,7 @@ void main() {
             float end = nearest + params.extent + params.extent_per_metre * nearest, sum = 0.0, held = 0.0;
             s = 0u;
             do {
-                float z = texelFetch(map_samples, base + int(s * kTileTexels)).x;
+                float z = fetch_map_samples(base + s * kTileTexels);
                 bool here = z >= nearest && z <= end;
                 sum += here ? z - nearest : 0.0;
                 held += here ? 1.0 : 0.0;

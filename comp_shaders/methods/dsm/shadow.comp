@@ -9,21 +9,21 @@
 #include "common/shadow_test.glsl"
 #include "common/bias.glsl"
 
-layout(binding = 16) uniform usamplerBuffer offsets;
-layout(binding = 17) uniform samplerBuffer clusters;
+READ_UINT(16, offsets)
+READ_VEC2(17, clusters)
 
 void main() {
     uint i = take_hit();
     ShadowTest test = shadow_test(i);
-    int list = test.here ? int(test.list) : 0;
-    uint k = texelFetch(offsets, list).x;
-    uint end = texelFetch(offsets, list + 1).x;
+    uint list = test.here ? test.list : 0u;
+    uint k = fetch_offsets(list);
+    uint end = fetch_offsets(list + 1u);
     float limit = biased_metres(test.depth);
     float visibility = 1.0;
     uint visited = 0u, tested = 0u;
     bool more = test.here && k < end;
     while (more) {
-        vec2 cluster = texelFetch(clusters, int(k)).xy;
+        vec2 cluster = fetch_clusters(k);
         bool nearer = cluster.x < limit;
         visibility = nearer ? cluster.y : visibility;
         if (kCount) ++visited;

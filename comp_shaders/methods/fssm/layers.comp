@@ -9,7 +9,7 @@
 #include "common/stage.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform samplerBuffer map_samples;
+READ_VEC4(0, map_samples)
 layout(binding = 1, scalar) writeonly buffer Layers { vec4 layers[]; };
 layout(push_constant, scalar) uniform Push { FssmParams params; };
 #include "common/batch.glsl"

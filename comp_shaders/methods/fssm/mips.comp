@@ -9,7 +9,7 @@
 #include "common/stage.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform samplerBuffer tuples;
+READ_VEC4(0, tuples)
 layout(binding = 1, scalar) writeonly buffer Tuples { vec4 written[]; };
 layout(push_constant, scalar) uniform Push { FssmMipParams params; };
 
@@ -20,7 +20,7 @@ void main() {
     uint texel = i - (layer << (2u * params.level_bits));
     uint y = texel >> params.level_bits;
     uint x = texel - (y << params.level_bits);
-    int from = int(params.read_first + (layer << (2u * params.level_bits + 2u)) + (y << (params.level_bits + 2u)) + 2u * x);
-    int below = from + (2 << params.level_bits);
-    written[params.write_first + i] = (texelFetch(tuples, from) + texelFetch(tuples, from + 1)) + (texelFetch(tuples, below) + texelFetch(tuples, below + 1));
+    uint from = params.read_first + (layer << (2u * params.level_bits + 2u)) + (y << (params.level_bits + 2u)) + 2u * x;
+    uint below = from + (2u << params.level_bits);
+    written[params.write_first + i] = (fetch_tuples(from) + fetch_tuples(from + 1u)) + (fetch_tuples(below) + fetch_tuples(below + 1u));
 }

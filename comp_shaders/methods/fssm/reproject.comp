@@ -10,8 +10,8 @@
 #include "common/stage.glsl"
 
 layout(local_size_x = 64) in;
-layout(binding = 0) uniform samplerBuffer map_samples;
-layout(binding = 1) uniform samplerBuffer layers;
+READ_VEC4(0, map_samples)
+READ_VEC4(1, layers)
 layout(binding = 2, scalar) buffer Tuples { float tuples[]; };
 layout(push_constant, scalar) uniform Push { FssmParams params; };
 #include "common/batch.glsl"
@@ -29,7 +29,7 @@ void main() {
     LayerGrid grid[kMostLayers];
     vec4 ends = vec4(kFarthest);
     [[unroll]] for (uint k = 0u; k < kMostLayers; ++k) {
-        layer[k] = k < kLayers ? texelFetch(layers, int(params.layer_first + local * kLayers + k)) : vec4(0.0, 0.0, 0.0, kFarthest);
+        layer[k] = k < kLayers ? fetch_layers(params.layer_first + local * kLayers + k) : vec4(0.0, 0.0, 0.0, kFarthest);
         grid[k] = layer_grid(layer[k].xy, float(kWindow), float(kGrid));
         ends[k] = layer[k].w;
     }

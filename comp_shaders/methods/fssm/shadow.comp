@@ -21,9 +21,9 @@ layout(constant_id = 13) const bool kFootprint = true;   // Else the hit is a po
 layout(constant_id = 14) const bool kTent = true;        // The filter along v.
 layout(constant_id = 15) const bool kNeighbours = true;  // Lookups near a tile's border may go to the neighbour.
 layout(constant_id = 16) const bool kViewsMove = false;  // The camera or the light.
-layout(binding = 16) uniform samplerBuffer layers;
-layout(binding = 17) uniform samplerBuffer tuples;
-layout(binding = 18) uniform samplerBuffer view_keys;    // Per key: the camera's rows (x, y, metres) and origin, the light's (x, y, w) and origin.
+READ_VEC4(16, layers)
+READ_VEC4(17, tuples)
+READ_VEC4(18, view_keys)    // Per key: the camera's rows (x, y, metres) and origin, the light's (x, y, w) and origin.
 
 // Most lookups along a footprint: the anisotropy of the hardware filter.
 const uint kMostProbes = 16u;
@@ -32,18 +32,18 @@ ViewNear fetch_view(float t, uint first, vec3 p) {
     uint segment = cell_of(t, params.camera.segment_count);
     ViewRows key[2];
     [[unroll]] for (uint i = 0u; i < 2u; ++i) {
-        int at = int(8u * (segment + i) + first);
-        key[i] = ViewRows(vec4[3](texelFetch(view_keys, at), texelFetch(view_keys, at + 1), texelFetch(view_keys, at + 2)), texelFetch(view_keys, at + 3).xyz);
+        uint at = 8u * (segment + i) + first;
+        key[i] = ViewRows(vec4[3](fetch_view_keys(at), fetch_view_keys(at + 1u), fetch_view_keys(at + 2u)), fetch_view_keys(at + 3u).xyz);
     }
     return view_near(key[0], key[1], t * float(params.camera.segment_count) - float(segment), p);
 }
 
 vec3 world_of(Receiver h) {
-    int key = int(h.segment * params.camera.vertex_stride);
+    uint key = h.segment * params.camera.vertex_stride;
     vec3 p = vec3(0.0);
     [[unroll]] for (int k = 0; k < 3; ++k) {
-        int i = key + int(h.vertex[k]);
-        p += h.barycentrics[k] * mix(texelFetch(positions, i).xyz, texelFetch(positions, i + int(params.camera.vertex_stride)).xyz, h.local_time);
+        uint i = key + h.vertex[k];
+        p += h.barycentrics[k] * mix(fetch_positions(i).xyz, fetch_positions(i + params.camera.vertex_stride).xyz, h.local_time);
     }
     return p;
 }
@@ -56,14 +56,14 @@ vec2 drift(vec3 p, vec3 in_camera, vec3 in_light, float t) {
 }
 
 // The tuple at p, in texels of the grid, bilinear; of a level that begins at `first` and is `size` texels wide.
-vec4 tuple_at(vec2 p, int first, int size) {
+vec4 tuple_at(vec2 p, uint first, uint size) {
     vec2 q = p * (float(size) / float(kGrid)) - 0.5;
     vec2 corner = floor(q);
     vec2 f = q - corner;
-    ivec2 low = clamp(ivec2(corner), ivec2(0), ivec2(size - 1));
-    ivec2 high = clamp(ivec2(corner) + 1, ivec2(0), ivec2(size - 1));
-    vec4 above = mix(texelFetch(tuples, first + low.y * size + low.x), texelFetch(tuples, first + low.y * size + high.x), f.x);
-    vec4 below = mix(texelFetch(tuples, first + high.y * size + low.x), texelFetch(tuples, first + high.y * size + high.x), f.x);
+    uvec2 low = uvec2(clamp(ivec2(corner), ivec2(0), ivec2(size - 1u)));
+    uvec2 high = uvec2(clamp(ivec2(corner) + 1, ivec2(0), ivec2(size - 1u)));
+    vec4 above = mix(fetch_tuples(first + low.y * size + low.x), fetch_tuples(first + low.y * size + high.x), f.x);
+    vec4 below = mix(fetch_tuples(first + high.y * size + low.x), fetch_tuples(first + high.y * size + high.x), f.x);
     return mix(above, below, f.y);
 }
 
@@ -87,7 +87,7 @@ void main() {
     }
     place -= (tile + 0.5) * float(kTile);
     uint tile_ix = uint(tile.y) * tiles.x + uint(tile.x);
-    uint layers_in_memory = uint(textureSize(layers));
+    uint layers_in_memory = READ_COUNT(layers);
     uint layer_first = test.here ? (tile_ix - params.range_first) * kLayers : 0u;
 
     // Where and when the footprint begins and ends.
@@ -108,7 +108,7 @@ void main() {
     uint tested = 0u;
     uint k = 0u;
     while (k < kLayers) {
-        vec4 layer = texelFetch(layers, int(layer_first + k));
+        vec4 layer = fetch_layers(layer_first + k);
         LayerGrid grid = layer_grid(layer.xy, float(kWindow), float(kGrid));
         vec2 a = clamp_to_grid(grid_point(grid, begin, when.x, float(kGrid)), float(kGrid));
         vec2 b = clamp_to_grid(grid_point(grid, end, when.y, float(kGrid)), float(kGrid));
@@ -120,7 +120,7 @@ void main() {
 
         // What is read behind a loop is that loop's state, tested at its top: see sample/shadow.
         vec4 sum = vec4(0.0);
-        int size = int(kGrid);
+        uint size = kGrid;
         uint level_first = 0u;
         uint level = used ? 0u : kLevels;
         while (level < kLevels && !(sum.w > 0.0)) {
@@ -129,14 +129,14 @@ void main() {
             while (probe < probes) {
                 vec2 p = a + along * ((probe + 0.5) / probes);
                 p.y += reach * row / (rows + 1.0);
-                sum += (1.0 - abs(row) / (rows + 1.0)) * tuple_at(p, int(level_first + (layer_first + k) * uint(size * size)), size);
+                sum += (1.0 - abs(row) / (rows + 1.0)) * tuple_at(p, level_first + (layer_first + k) * size * size, size);
                 if (kCount) ++read;
                 row += 1.0;
                 probe += row > rows ? 1.0 : 0.0;
                 row = row > rows ? -rows : row;
             }
-            level_first = next_level(level_first, layers_in_memory, uint(size));
-            size /= 2;
+            level_first = next_level(level_first, layers_in_memory, size);
+            size /= 2u;
             ++level;
         }
         float receiver = depth_at_middle(depth, layer.z, t) - layer.w;

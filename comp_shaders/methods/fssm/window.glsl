@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The samples of a tile's search window. Needs: samplerBuffer map_samples (depth, motion in x, y and depth; per stratum, tile of 8 x 8 and texel), FssmParams params,
+// The samples of a tile's search window. Needs: map_samples (depth, motion in x, y and depth; per stratum, tile of 8 x 8 and texel), FssmParams params,
 // common/batch.glsl.
 #include "math/fssm.h"
 
@@ -37,7 +37,7 @@ struct WindowSample {
 };
 
 WindowSample window_sample(WindowTexel texel, uvec2 tile, uint stratum) {
-    vec4 s = texelFetch(map_samples, int(texel.at + (stratum - params.stratum_first) * params.sample_stride));
+    vec4 s = fetch_map_samples(texel.at + (stratum - params.stratum_first) * params.sample_stride);
     vec3 point = sample_point(texel.hash, texel.place.x, texel.place.y, stratum, params.stratum_length);
     WindowSample w;
     w.hit = texel.there && s.x < kFarthest;

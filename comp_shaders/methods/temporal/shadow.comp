@@ -12,12 +12,12 @@
 #include "common/list.glsl"
 #include "methods/dtr/ranges.glsl"
 
-layout(binding = 10) uniform usamplerBuffer coverage;
+READ_UINT(10, coverage)
 
 void main() {
     uint i = take_hit();
     ShadowTest test = shadow_test(i);
-    uint covering = test.here ? texelFetch(coverage, int(test.list)).x : kNone;
+    uint covering = test.here ? fetch_coverage(test.list) : kNone;
     bool covered = covering != kNone;
     uint visited = 0u;
     uint tested = 0u;
