@@ -55,8 +55,9 @@ protected:
     static void expect_at_every_width(const std::string& expected, const std::string& icd) {
         for (const int bits : {128, 256, 512}) {
             const std::string where = environment(bits, icd), used = device(where);
-            if (used.find("llvmpipe") != std::string::npos)
+            if (used.find("llvmpipe") != std::string::npos) {
                 EXPECT_THAT(used, testing::HasSubstr(std::to_string(bits) + " bits"));
+            }
             EXPECT_EQ(hash(where), expected) << used;
         }
     }
