@@ -22,10 +22,11 @@ for argument in "$@"; do
   esac
 done
 
-# The newest that is there. A manifest is written last: where there is one, the driver is whole.
-manifests=$(find "$folder" -mindepth 2 -maxdepth 2 -path '*/mesa-*/icd.json' 2> /dev/null | sort --version-sort || true)
-if [[ -n $manifests ]]; then
-  realpath "$(tail -n 1 <<< "$manifests")"
+# The newest that is there. A manifest is written last, so its driver is whole; it names the driver by an absolute path, so a folder that
+# was moved is unpacked again.
+manifest=$(find "$folder" -mindepth 2 -maxdepth 2 -path '*/mesa-*/icd.json' 2> /dev/null | sort --version-sort | tail -n 1 || true)
+if [[ -n $manifest ]] && grep --quiet --fixed-strings "\"$(realpath "${manifest%/*}")/libvulkan_lvp.so\"" "$manifest"; then
+  realpath "$manifest"
   exit 0
 fi
 [[ $unpack == yes ]] || fail "no driver in $folder; run tools/second_driver.sh with a network"
