@@ -74,7 +74,7 @@ cmake --build --preset dev --parallel "$(nproc)"
 check_driver() {
   local devices
   devices=$(VK_DRIVER_FILES=$2 VK_ICD_FILENAMES=$2 build/dev/gnomon devices 2>&1) || fail "the driver of $2 does not load: $(tail -n 1 <<< "$devices")"
-  echo "$1: $(sed -n 's/^\* *[0-9]* *//p' <<< "$devices")"
+  echo "$1: $(sed -n 's/^\* *[0-9][0-9]*  *//p' <<< "$devices")"
 }
 [[ -z $driver ]] || check_driver "Driver" "$manifest"
 [[ -z $second ]] || check_driver "Second driver" "$second"
