@@ -78,7 +78,11 @@ Descriptor block_descriptor(std::string_view stage, const std::string& name, con
         fail_stage(stage,
                    name + " has " + std::to_string(bytes) + " bytes, the shader's block " + std::to_string(resource.min_bytes));
     }
-    return {.resource = &resource, .buffer = {buffer.memory.buffer.get(), binding.offset, bytes}};
+    return {.resource = &resource,
+            .owner = &buffer,
+            .offset = binding.offset,
+            .bytes = bytes,
+            .buffer = {buffer.memory.buffer.get(), binding.offset, bytes}};
 }
 
 Descriptor texel_descriptor(std::string_view stage, const std::string& name, const Resource& resource, const Binding& binding,
@@ -99,7 +103,11 @@ Descriptor texel_descriptor(std::string_view stage, const std::string& name, con
         fail_stage(stage, name + " has " + std::to_string(bytes / format.bytes) + " texels, the device binds at most " +
                               std::to_string(limits.max_texels) + " (process it in bands)");
     }
-    return {.resource = &resource, .view = buffer.view(format.format, binding.offset, bytes)};
+    return {.resource = &resource,
+            .owner = &buffer,
+            .offset = binding.offset,
+            .bytes = bytes,
+            .view = buffer.view(format.format, binding.offset, bytes)};
 }
 
 // Every resource once; the error names what is wrong.
@@ -122,6 +130,21 @@ void check_all_bound(std::string_view stage, const Reflection& reflection, std::
     }
 }
 
+// A compiler may take two resources for different memory, and a load through one for independent of a store through the other.
+void check_no_aliases(std::string_view stage, const std::vector<Descriptor>& descriptors) {
+    for (size_t i = 0; i < descriptors.size(); ++i) {
+        for (size_t j = 0; j < i; ++j) {
+            const Descriptor& a = descriptors[j];
+            const Descriptor& b = descriptors[i];
+            const bool overlap = a.owner == b.owner && a.offset < b.offset + b.bytes && b.offset < a.offset + a.bytes;
+            if (!overlap || !(a.resource->writable || b.resource->writable)) continue;
+            fail_stage(stage, in_quotes(a.resource->name) + " and " + in_quotes(b.resource->name) + " are ranges of buffer " +
+                                  a.owner->name + " that overlap, and " +
+                                  in_quotes((a.resource->writable ? a : b).resource->name) + " may be written");
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<Descriptor> bind_resources(std::string_view stage, const Program::Impl& program,
@@ -138,6 +161,7 @@ std::vector<Descriptor> bind_resources(std::string_view stage, const Program::Im
                                     : texel_descriptor(stage, name, resource, binding, buffer));
     }
     check_all_bound(stage, program.reflection, bindings);
+    check_no_aliases(stage, descriptors);
     return descriptors;
 }
 

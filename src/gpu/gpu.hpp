@@ -151,7 +151,8 @@ public:
     /// Run `groups` workgroups. They are spread over x and y (at most max_groups each), so the shader numbers them
     /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and ignores those past the count that it gets in its
     /// parameters. Every resource of the program must be bound by name, every binding must exist in it, ranges must be within
-    /// the limits and the size of params must equal the push-constant block's: else ErrorKind::internal. groups 0: checked, but
+    /// the limits and may overlap in one buffer only where neither is of a storage block that may be written (all but readonly
+    /// ones), and the size of params must equal the push-constant block's: else ErrorKind::internal. groups 0: checked, but
     /// nothing is recorded.
     template <class Params>
     void dispatch(std::string_view stage, const Program& program, std::span<const Binding> bindings, const Params& params,
