@@ -15,6 +15,10 @@ VkDevice create_device(const Candidate& candidate) {
                                                 .maintenance4 = VK_TRUE};
     const VkPhysicalDeviceVulkan12Features features12{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &features13, .scalarBlockLayout = VK_TRUE};
+    VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR control_flow{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR,
+        .shaderSubgroupUniformControlFlow = VK_TRUE};
+    if (candidate.uniform_control_flow) features13.pNext = &control_flow;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = candidate.queue_family,
@@ -23,7 +27,9 @@ VkDevice create_device(const Candidate& candidate) {
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features12,
                                   .queueCreateInfoCount = 1,
-                                  .pQueueCreateInfos = &queue};
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = static_cast<uint32_t>(candidate.extensions.size()),
+                                  .ppEnabledExtensionNames = candidate.extensions.data()};
     VkDevice device = VK_NULL_HANDLE;
     check(vkCreateDevice(candidate.physical, &info, nullptr, &device), "open the device", candidate.description.name);
     return device;

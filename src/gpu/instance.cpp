@@ -27,14 +27,17 @@ bool has_validation_layer() {
                        [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; });
 }
 
-bool has_debug_utils() {
+std::vector<VkExtensionProperties> instance_extensions() {
     uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
-    });
+    return extensions;
+}
+
+bool has_extension(const std::vector<VkExtensionProperties>& extensions, const char* name) {
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const VkExtensionProperties& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
 template <class Function>
@@ -100,6 +103,24 @@ void find_missing_features(Candidate& candidate) {
     if (!features13.synchronization2) missing.emplace_back("synchronization2");
 }
 
+// What is used where the device offers it.
+void find_extensions(Candidate& candidate) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> offered(count);
+    vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, offered.data());
+    if (has_extension(offered, VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME)) {
+        VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR control_flow{
+            .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR};
+        VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &control_flow};
+        vkGetPhysicalDeviceFeatures2(candidate.physical, &features);
+        candidate.uniform_control_flow = control_flow.shaderSubgroupUniformControlFlow;
+        if (candidate.uniform_control_flow) {
+            candidate.extensions.push_back(VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME);
+        }
+    }
+}
+
 void find_missing_subgroup_operations(const VkPhysicalDeviceSubgroupProperties& subgroup, std::vector<std::string>& missing) {
     if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT)) {
         missing.emplace_back("subgroup operations in compute shaders");
@@ -148,6 +169,7 @@ Candidate describe(VkPhysicalDevice physical, uint32_t index) {
     vkGetPhysicalDeviceProperties2(physical, &properties2);
     description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     find_missing_features(candidate);
+    find_extensions(candidate);
     find_missing_subgroup_operations(subgroup, description.missing);
     return candidate;
 }
@@ -177,7 +199,8 @@ Instance::Instance(bool validate) {
         throw Error(ErrorKind::no_device, std::string(kValidationLayer) + " is not installed", "validation",
                     "install it (Debian package vulkan-validationlayers) or run without validation");
     }
-    const bool debug_utils = has_debug_utils();
+    const std::vector<VkExtensionProperties> offered = instance_extensions();
+    const bool debug_utils = has_extension(offered, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     std::vector<const char*> layers;
     std::vector<const char*> extensions;
     if (debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);

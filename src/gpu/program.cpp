@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "gpu/descriptors.hpp"
+#include "gpu/spirv_rewrite.hpp"
 
 namespace gnomon::gpu {
 namespace {
@@ -108,7 +109,8 @@ Program Device::program(const Shader& shader, std::span<const Constant> constant
     made.set_layout = create_set_layout(device, made.reflection, where);
     made.layout = create_layout(device, made.set_layout.get(), made.reflection.push_constant_bytes, where);
     const bool full_subgroups = made.reflection.local_size[0] % impl_->limits.subgroup_size == 0;
-    made.pipeline = create_pipeline(device, made.layout.get(), shader, constants, full_subgroups, where);
+    const std::vector<uint32_t> spirv = rewrite_spirv(shader, impl_->candidate.uniform_control_flow);
+    made.pipeline = create_pipeline(device, made.layout.get(), {shader.name, spirv}, constants, full_subgroups, where);
     impl_->set_object_name(VK_OBJECT_TYPE_PIPELINE, reinterpret_cast<uint64_t>(made.pipeline.get()), shader.name);
     return program;
 }

@@ -96,6 +96,8 @@ struct Candidate {
     DeviceDescription description;
     uint32_t queue_family = 0;
     uint32_t timestamp_bits = 0;
+    bool uniform_control_flow = false;    ///< It has VK_KHR_shader_subgroup_uniform_control_flow.
+    std::vector<const char*> extensions;  ///< To enable.
 };
 
 std::vector<Candidate> find_candidates(const Instance& instance);
