@@ -10,6 +10,7 @@ namespace {
 
 VkDevice create_device(const Candidate& candidate) {
     VkPhysicalDeviceVulkan13Features features13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                                                .subgroupSizeControl = candidate.subgroup_size_control,
                                                 .computeFullSubgroups = VK_TRUE,
                                                 .synchronization2 = VK_TRUE,
                                                 .maintenance4 = VK_TRUE};
@@ -95,9 +96,7 @@ Device::Impl::Impl(const std::string& choice, bool validate)
     VkPhysicalDeviceMaintenance4Properties maintenance4{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
     VkPhysicalDeviceMaintenance3Properties maintenance3{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
                                                         .pNext = &maintenance4};
-    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
-                                                .pNext = &maintenance3};
-    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &maintenance3};
     vkGetPhysicalDeviceProperties2(candidate.physical, &properties);
     vulkan_limits = properties.properties.limits;
     limits = {.heap_bytes = candidate.description.heap_bytes,
@@ -107,7 +106,10 @@ Device::Impl::Impl(const std::string& choice, bool validate)
               .max_texels = vulkan_limits.maxTexelBufferElements,
               .texel_alignment = vulkan_limits.minTexelBufferOffsetAlignment,
               .max_groups = std::min(vulkan_limits.maxComputeWorkGroupCount[0], vulkan_limits.maxComputeWorkGroupCount[1]),
-              .subgroup_size = subgroup.subgroupSize,
+              .subgroup_size = candidate.subgroup.size,
+              .storage_buffers = vulkan_limits.maxPerStageDescriptorStorageBuffers,
+              .push_constant_bytes = vulkan_limits.maxPushConstantsSize,
+              .timestamps = candidate.timestamp_bits > 0,
               .is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
 
     // Cached, because the host reads results: uncached device memory behind a bus is read far slower than it is copied. And in
@@ -216,6 +218,7 @@ Device::~Device() = default;
 
 const DeviceDescription& Device::description() const { return impl_->candidate.description; }
 const Limits& Device::limits() const { return impl_->limits; }
+bool Device::has_timestamps() const { return impl_->limits.timestamps; }
 const std::vector<std::string>& Device::validation_messages() const { return impl_->instance.messages; }
 
 void Device::set_budget(uint64_t bytes) { impl_->budget = bytes; }

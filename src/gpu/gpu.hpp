@@ -27,7 +27,10 @@ struct Limits {
     uint64_t max_texels = 0;         ///< Elements of one texel-buffer binding.
     uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
-    uint32_t subgroup_size = 1;
+    uint32_t subgroup_size = 1;      ///< Of all pipelines; a device that cannot be asked for one size may use others.
+    uint32_t storage_buffers = 4;    ///< Of one shader.
+    uint32_t push_constant_bytes = 128;
+    bool timestamps = false;  ///< Else stages have no seconds.
     bool is_cpu = false;
 };
 
@@ -111,6 +114,8 @@ public:
 
     const DeviceDescription& description() const;
     const Limits& limits() const;
+    /// Whether stage times are measured; else their seconds are 0.
+    bool has_timestamps() const;
     const std::vector<std::string>& validation_messages() const;
 
     /// Uninitialised memory, usable for storage, texel, uniform and transfer. bytes 0 gives the smallest buffer.

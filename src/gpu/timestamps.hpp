@@ -6,7 +6,7 @@
 
 namespace gnomon::gpu {
 
-/// Timestamps in pairs, start and end. Grows by pools. Any number of them.
+/// Timestamps in pairs, start and end. Grows by pools. Any number of them. On a device without timestamps all times are 0.
 class Timestamps {
 public:
     explicit Timestamps(const Device::Impl& device);
@@ -21,6 +21,7 @@ private:
     static constexpr uint32_t kPoolQueries = 2048;
 
     VkDevice device_;
+    bool measured_;
     double seconds_per_tick_;
     uint64_t mask_;  // of the bits that count
     std::vector<OwnedQueryPool> pools_;

@@ -90,14 +90,28 @@ private:
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
+/// How many invocations are a subgroup. A compiler may choose for each SPIR-V 1.6 shader by itself, from Vulkan's
+/// minSubgroupSize to `most`, unless it is told.
+struct SubgroupSize {
+    uint32_t size = 1;  ///< What pipelines ask for, or else the device's usual one.
+    uint32_t most = 1;
+    bool required = false;  ///< Pipelines ask for it.
+};
+
+/// The usual size, or 64 where that is more and a device may be asked for 64: workgroups have 64 invocations.
+SubgroupSize choose_subgroup_size(uint32_t usual, uint32_t least, uint32_t most, bool may_require);
+
 /// A device of this machine, usable or not.
 struct Candidate {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceDescription description;
     uint32_t queue_family = 0;
-    uint32_t timestamp_bits = 0;
-    bool uniform_control_flow = false;    ///< It has VK_KHR_shader_subgroup_uniform_control_flow.
-    std::vector<const char*> extensions;  ///< To enable.
+    uint32_t timestamp_bits = 0;  ///< 0: it has none.
+    bool subgroup_size_control = false;
+    SubgroupSize subgroup;
+    uint32_t max_workgroup_subgroups = 0;  ///< Where a size is required.
+    bool uniform_control_flow = false;     ///< It has VK_KHR_shader_subgroup_uniform_control_flow.
+    std::vector<const char*> extensions;   ///< To enable.
 };
 
 std::vector<Candidate> find_candidates(const Instance& instance);

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdlib>
 
+#include "gpu/vulkan.hpp"
 #include "gpu_test.hpp"
 
 namespace gnomon::gpu {
@@ -79,6 +80,23 @@ TEST(DeviceChoice, UnknownListsWhatExists) {
     expect_error(ErrorKind::no_device, {"'99999999999999999999'", name}, [] { Device("99999999999999999999", false); });
 }
 
+// Usual size, least, most, may be required: of CPUs, of three makers' GPUs, and of one with large subgroups.
+TEST(SubgroupSizes, AreRequiredAndAtMost64WherePossible) {
+    const auto expect_size = [](const SubgroupSize& chosen, uint32_t size, uint32_t most, bool required) {
+        EXPECT_EQ(chosen.size, size);
+        EXPECT_EQ(chosen.most, most);
+        EXPECT_EQ(chosen.required, required);
+    };
+    expect_size(choose_subgroup_size(4, 4, 4, true), 4, 4, true);
+    expect_size(choose_subgroup_size(32, 32, 32, true), 32, 32, true);
+    expect_size(choose_subgroup_size(32, 8, 32, true), 32, 32, true);
+    expect_size(choose_subgroup_size(32, 8, 32, false), 32, 32, false);
+    expect_size(choose_subgroup_size(64, 32, 64, true), 64, 64, true);
+    expect_size(choose_subgroup_size(128, 64, 128, true), 64, 128, true);
+    expect_size(choose_subgroup_size(128, 128, 128, true), 128, 128, true);
+    expect_size(choose_subgroup_size(64, 64, 128, false), 64, 128, false);
+}
+
 TEST_F(DeviceTest, LimitsAreWithinVulkansGuarantees) {
     const Limits& limits = device.limits();
     EXPECT_EQ(limits.heap_bytes, device.description().heap_bytes);
@@ -89,6 +107,9 @@ TEST_F(DeviceTest, LimitsAreWithinVulkansGuarantees) {
     EXPECT_LE(limits.texel_alignment, 256u);
     EXPECT_GE(limits.max_groups, 65535u);
     EXPECT_GE(limits.subgroup_size, 1u);
+    EXPECT_GE(limits.storage_buffers, 4u);
+    EXPECT_GE(limits.push_constant_bytes, 128u);
+    EXPECT_EQ(limits.timestamps, device.has_timestamps());
     EXPECT_EQ(limits.is_cpu, device.description().type == "cpu");
 }
 
