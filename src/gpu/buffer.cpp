@@ -158,9 +158,9 @@ Buffer Device::allocate(const std::string& name, uint64_t bytes) {
     buffer.impl_->name = name;
     buffer.impl_->capacity = (bytes + kGranularity - 1) / kGranularity * kGranularity;
     constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    const std::array preferences{impl_->map_buffers ? kLocal | kHostReadable : kLocal};
+    const std::array preferences{impl_->limits.mapped ? kLocal | kHostReadable : kLocal};
     buffer.impl_->memory = impl_->make_memory(name, buffer.impl_->capacity, kUsage, preferences);
-    if (impl_->map_buffers) impl_->map(buffer.impl_->memory);
+    if (impl_->limits.mapped) impl_->map(buffer.impl_->memory);
     buffer.impl_->bytes = bytes;
     impl_->add_live(name, bytes);
     return buffer;

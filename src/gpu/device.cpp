@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The logical device: its queue, its limits, running command buffers, statistics.
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 
+#include "gpu/limits.hpp"
 #include "gpu/vulkan.hpp"
 
 namespace gnomon::gpu {
@@ -119,8 +121,9 @@ Device::Impl::Impl(const std::string& choice, bool validate)
     for (uint32_t i = 0; i < memory_properties.memoryTypeCount; ++i) {
         const VkMemoryType& type = memory_properties.memoryTypes[i];
         const bool large = memory_properties.memoryHeaps[type.heapIndex].size == limits.heap_bytes;
-        if (large && (type.propertyFlags & kMappable) == kMappable) map_buffers = true;
+        if (large && (type.propertyFlags & kMappable) == kMappable) limits.mapped = true;
     }
+    if (const char* lower = std::getenv("GNOMON_LIMITS")) limits = lower_limits(limits, lower);
 
     const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     fence = create<OwnedFence>(device.get(), vkCreateFence, fence_info, "a fence");

@@ -31,6 +31,7 @@ struct Limits {
     uint32_t storage_buffers = 4;    ///< Of one shader.
     uint32_t push_constant_bytes = 128;
     bool timestamps = false;  ///< Else stages have no seconds.
+    bool mapped = false;      ///< The host sees buffers; else uploads and downloads are staged.
     bool is_cpu = false;
 };
 
@@ -107,6 +108,9 @@ class Device {
 public:
     /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and
     /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
+    /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if the device had no more:
+    /// "texels=65536,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,buffer=67108864,timestamps=0,
+    /// mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's own.
     Device(const std::string& choice, bool validate);
     ~Device();
     Device(const Device&) = delete;

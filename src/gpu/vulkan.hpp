@@ -160,10 +160,9 @@ struct Device::Impl {
     Instance instance;
     Candidate candidate;
     std::unique_ptr<VkDevice_T, DestroyDevice> device;  // before all that is made from it
-    Limits limits;
+    Limits limits;  ///< Of the device, or lowered for tests; checks use these where there is one.
     VkPhysicalDeviceLimits vulkan_limits{};
     VkPhysicalDeviceMemoryProperties memory_properties{};
-    bool map_buffers = false;  ///< Device memory is as good to read and write from the host as host memory.
     VkQueue queue = VK_NULL_HANDLE;
     OwnedFence fence;
     std::vector<Commands> idle_commands;
