@@ -4,8 +4,8 @@
 #include "shared/slot.h"
 
 // Where and when a pixel of a view is sampled.
-vec3 view_sample(bool sliced, uint x, uint y, uint stratum, uint spp, uint seed) {
-    return sliced ? slice_point(x, y, stratum, spp) : sample_point(pixel_hash(x, y, seed), x, y, stratum, spp);
+vec3 view_sample(bool sliced, uint x, uint y, uint stratum, float stratum_length, uint seed) {
+    return sliced ? slice_point(x, y, stratum, stratum_length) : sample_point(pixel_hash(x, y, seed), x, y, stratum, stratum_length);
 }
 
 struct Slot {

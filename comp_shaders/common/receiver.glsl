@@ -20,7 +20,7 @@ Receiver fetch_receiver(uint entry, uvec2 pixel, vec3 p, uint stratum, uint spp,
     h.t = p.z;
     uint cell = straddle ? cell_of(p.z, grid.cell_count) : divide(stratum, spp / grid.cell_count);
     h.segment = divide(cell, grid.cell_count / grid.segment_count);
-    h.local_time = p.z * float(grid.segment_count) - float(h.segment);
+    h.local_time = local_time_of(p.z, h.segment, grid.segment_count);
     uvec4 tri = texelFetch(triangles, int(entry & ~kReversed));
     h.vertex = tri.xyz;
     h.material = tri.w;

@@ -71,7 +71,7 @@ ShadowTest shadow_test(uint i) {
     Slot s = unpack_slot(test.slot, params.stratum_count);
     uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
     uint stratum = params.stratum_first + s.stratum;
-    vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.spp, params.seed);
+    vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.stratum_length, params.seed);
     Receiver h = fetch_receiver(test.own, pixel, point, stratum, params.spp, params.camera, kStraddle, kCameraOrthographic);
 
     // The hit as the light's view holds it: on its own triangle at its own time.
@@ -102,7 +102,7 @@ ShadowTest shadow_test(uint i) {
     uint tx = uint(clamp(floor(test.at.x + 0.5 * float(params.light_width)), 0.0, float(params.light_width - 1u)));
     uint ty = uint(clamp(floor(test.at.y + 0.5 * float(params.light_height)), 0.0, float(params.light_height - 1u)));
     test.texel = uvec2(tx, ty);
-    uint tile = (ty / kTileSize) * params.light_tiles_x + tx / kTileSize;
+    uint tile = (ty / kTileSize) * ((params.light_width + kTileSize - 1u) / kTileSize) + tx / kTileSize;
     uint item = tile * params.light_tile_stride + cell_of(h.t, params.light_cell_count) * params.light_cell_stride;
     test.here = inside && in_cone && item >= params.item_first && item < params.item_first + params.item_count;
     test.list = item * kTileTexels + (ty & 7u) * kTileSize + (tx & 7u);

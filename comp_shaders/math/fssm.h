@@ -71,6 +71,10 @@ GN_FN vec4 split_layers(uvec2 occupied, float low, float high, uint most) {
     return ends;
 }
 
+// Levels of the layers' grids lie one behind the other in memory, each of all layers, from where any device can bind them.
+// Where the next one begins, in tuples; size: the level's width.
+GN_FN uint next_level(uint first, uint layer_count, uint size) { return (first + layer_count * size * size + 15u) / 16u * 16u; }
+
 // Layers with samples.
 GN_FN uint layer_count(vec4 ends) {
     return (ends.x < kFarthest ? 1u : 0u) + (ends.y < kFarthest ? 1u : 0u) + (ends.z < kFarthest ? 1u : 0u) +

@@ -13,6 +13,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kOrthographic = false;
+layout(constant_id = 2) const uint kCrew = 8u;
 layout(binding = 0) uniform usamplerBuffer bin_offsets;
 layout(binding = 1) uniform usamplerBuffer bin_entries;
 layout(binding = 2) uniform usamplerBuffer triangles;
@@ -55,10 +56,10 @@ void main() {
     float cell_start = float(cell);
     float per_cell = 1.0 / float(grid.cell_count);
 
-    uint begin = texelFetch(bin_offsets, int(item)).x;
-    uint end = texelFetch(bin_offsets, int(item + 1u)).x;
-    uint k = begin + params.list_first;
-    end = inside ? min(end, k + kListChunk) : k;
+    uint begin = texelFetch(bin_offsets, int(item)).x + params.list_first;
+    uint end = max(texelFetch(bin_offsets, int(item + 1u)).x, begin);
+    uint entries = inside ? min(end - begin, kListChunk) : 0u;
+    uint rounds = rounds_of(entries);
 
     // Lists of this column's texels, counted from the dispatch's first; texels outside the image get no ranges.
     uint list_first = (item - params.item_first) * kTileTexels + lane;
@@ -73,21 +74,25 @@ void main() {
     }
 #endif
 
-    while (k < end) {
-        uint own_entry = texelFetch(bin_entries, int(min(k + crew.place, end - 1u))).x;
+    uint k = 0u;
+    while (k < rounds) {
+        // Past the end: any entry, which then is not listed.
+        uint own_entry = texelFetch(bin_entries, int(k + crew.place < entries ? begin + k + crew.place : 0u)).x;
         CellTriangle c = fetch_cell_triangle(grid, own_entry, key_first, span);
         TileBounds own_bounds = tile_bounds(c, centre.x, centre.y, kReach, extent);
         uvec2 own_rows = tile_rows(c, centre.y, kReach, extent, slack);
         float own_nearest = nearest_depth(c, kOrthographic);
-        uint from = crew.first;
-        uint last = crew.first + min(crew.size, end - k);
+        uint from = 0u;
+        uint last = min(crew.size, rounds - k);
         do {
-            uint entry = subgroupShuffle(own_entry, from);
-            float nearest = subgroupShuffle(own_nearest, from);
-            ColumnBounds column = column_bounds(shown(own_bounds, from), x);
-            uint row = subgroupShuffle(own_rows.x, from);
-            uint last_row = subgroupShuffle(own_rows.y, from);
-            while (row <= last_row) {
+            uint source = crew.first + from;
+            uint entry = subgroupShuffle(own_entry, source);
+            float nearest = subgroupShuffle(own_nearest, source);
+            ColumnBounds column = column_bounds(shown(own_bounds, source), x);
+            uint row = subgroupShuffle(own_rows.x, source);
+            uint last_row = subgroupShuffle(own_rows.y, source);
+            bool listed = k + from < entries;
+            while (listed && row <= last_row) {
                 vec3 times = texel_times(column, float(row) - 3.5);
                 bool hit = touches_texel(times, slack) && row < rows;
                 uint cursor = 0u;

@@ -117,7 +117,7 @@ void main() {
         }
         if (entry != kNone) {
             uint stratum = params.stratum_first + s - 1u;
-            vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.spp, params.seed);
+            vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.stratum_length, params.seed);
             Receiver h = fetch_receiver(entry, pixel, point, stratum, params.spp, grid, kStraddle, kOrthographic);
             vec3 w0 = world_at(positions, h.vertex.x, h), w1 = world_at(positions, h.vertex.y, h), w2 = world_at(positions, h.vertex.z, h);
             vec3 position = blend(w0, w1, w2, h.barycentrics);

@@ -13,6 +13,7 @@ layout(constant_id = 0) const bool kOrthographic = false;
 layout(constant_id = 1) const bool kStraddle = false;  // A stratum may lie in several cells.
 layout(constant_id = 2) const bool kContinue = false;  // Go on from the hits of an earlier part of the lists.
 layout(constant_id = 3) const bool kSliced = false;    // Samples are slice_points.
+layout(constant_id = 4) const uint kCrew = 8u;
 layout(binding = 0) uniform usamplerBuffer bin_offsets;
 layout(binding = 1) uniform usamplerBuffer bin_entries;
 layout(binding = 2) uniform usamplerBuffer triangles;
@@ -69,24 +70,28 @@ void main() {
     uint x_px = tile_x * kTileSize + lane;
     [[unroll]] for (uint r = 0u; r < 8u; ++r) {
         uint y_px = tile_y * kTileSize + r;
-        vec3 p = view_sample(kSliced, x_px, y_px, stratum, params.spp, params.seed);
+        vec3 p = view_sample(kSliced, x_px, y_px, stratum, params.stratum_length, params.seed);
         point[r] = vec3(p.x - 0.5 * float(grid.width), p.y - 0.5 * float(grid.height), p.z);
         bool visible = inside && x_px < grid.width && y_px < grid.height;
         best[r] = Best(visible ? params.depth_far : -3.4e38, kNone);
     }
 
-    uint cell = kStraddle ? cell_of(float(stratum) / float(params.spp), grid.cell_count) : stratum / (params.spp / grid.cell_count);
-    uint last_cell = kStraddle ? cell_of(float(stratum + 1u) / float(params.spp), grid.cell_count) : cell;
+    uint first_cell = kStraddle ? cell_of(stratum_start(stratum, params.stratum_length), grid.cell_count) : stratum / (params.spp / grid.cell_count);
+    uint cells = kStraddle ? cell_of(stratum_start(stratum + 1u, params.stratum_length), grid.cell_count) - first_cell + 1u : 1u;
+    uint cell_rounds = kStraddle ? rounds_of(cells) : 1u;
+    uint cell_round = 0u;
     do {
+        bool walked = !kStraddle || cell_round < cells;
+        uint cell = first_cell + (walked ? cell_round : 0u);
         uint segment = cell / (grid.cell_count / grid.segment_count);
         uint key_first = segment * grid.vertex_stride;
         Best current[8];
         vec3 at[8];
         [[unroll]] for (uint r = 0u; r < 8u; ++r) {
             // A sample of another cell gets a depth that nothing is nearer than.
-            bool here = !kStraddle || cell_of(point[r].z, grid.cell_count) == cell;
+            bool here = !kStraddle || (walked && cell_of(point[r].z, grid.cell_count) == cell);
             current[r] = here ? best[r] : Best(-3.4e38, 0u);
-            at[r] = vec3(point[r].xy, point[r].z * float(grid.segment_count) - float(segment));
+            at[r] = vec3(point[r].xy, local_time_of(point[r].z, segment, grid.segment_count));
             if (kContinue) {
                 uint entry = hits[slot + tile_slot(lane, r)];
                 bool again = here && inside && entry != kNone;
@@ -95,31 +100,32 @@ void main() {
             }
         }
         uint list = tile * grid.cell_count + cell;
-        uint begin = texelFetch(bin_offsets, int(list)).x;
-        uint end = texelFetch(bin_offsets, int(list + 1u)).x;
-        uint k = begin + params.list_first;
-        end = min(end, k + trace_chunk(grid, params.spp));
+        uint begin = texelFetch(bin_offsets, int(list)).x + params.list_first;
+        uint end = max(texelFetch(bin_offsets, int(list + 1u)).x, begin);
+        uint count = walked ? min(end - begin, trace_chunk(grid, params.spp)) : 0u;
+        uint rounds = rounds_of(count);
+        uint k = 0u;
         do {
             // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
             uint own = k + crew.place;
-            uint own_entry = own < end ? texelFetch(bin_entries, int(own)).x : grid.triangle_count;
+            uint own_entry = own < count ? texelFetch(bin_entries, int(begin + own)).x : grid.triangle_count;
             MovingTriangle own_triangle = fetch_moving_triangle(own_entry, key_first, grid.vertex_stride);
-            uint from = crew.first;
-            uint last = crew.first + min(crew.size, end - min(k, end));
+            uint from = 0u;
+            uint last = min(crew.size, rounds - k);
             do {
-                uint entry = subgroupShuffle(own_entry, from);
-                MovingTriangle m = shown(own_triangle, from);
+                uint entry = subgroupShuffle(own_entry, crew.first + from);
+                MovingTriangle m = shown(own_triangle, crew.first + from);
                 [[unroll]] for (uint r = 0u; r < 8u; ++r) test(m, entry, at[r], current[r]);
                 ++from;
             } while (from < last);
             k += crew.size;
-        } while (k < end);
+        } while (k < rounds);
         [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-            bool here = !kStraddle || cell_of(point[r].z, grid.cell_count) == cell;
+            bool here = !kStraddle || (walked && cell_of(point[r].z, grid.cell_count) == cell);
             if (here) best[r] = current[r];
         }
-        ++cell;
-    } while (cell <= last_cell);
+        ++cell_round;
+    } while (cell_round < cell_rounds);
 
     if (inside) {
         [[unroll]] for (uint r = 0u; r < 8u; ++r) hits[slot + tile_slot(lane, r)] = best[r].entry;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: first half of an exclusive prefix sum: the sum of each run of kScanRun elements; and the largest element.
 // Reads:   values (padded to a multiple of 4 elements with zeros)
-// Writes:  Sums (one per run; 0xffffffff where it does not fit), Longest
+// Writes:  Runs (the sum of each run; 0xffffffff where it does not fit), Longest
 // Grid:    one invocation per run
 // Source:  reduce, then scan; no progress between workgroups is assumed
 #extension GL_GOOGLE_include_directive : require
@@ -12,7 +12,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kLongest = false;  // The values are elements, not sums of them.
 layout(binding = 0) uniform usamplerBuffer values;
-layout(binding = 1, scalar) writeonly buffer Sums { uint sums[]; };
+layout(binding = 1, scalar) writeonly buffer Runs { uint runs[]; };
 layout(binding = 2, scalar) buffer Longest { uint longest; };
 layout(push_constant, scalar) uniform Push { ScanParams params; };
 
@@ -33,7 +33,7 @@ void main() {
         ++quad;
     }
     if (run * kScanRun < params.count) {
-        sums[run] = sum;
+        runs[run] = sum;
         if (kLongest && largest > 0u) atomicMax(longest, largest);
     }
 }

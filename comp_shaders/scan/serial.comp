@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Purpose: exclusive prefix sum of a short array, in place; its total behind it (0xffffffff where a sum does not fit).
+// Purpose: exclusive prefix sum of a short array; its total behind it (0xffffffff where a sum does not fit).
 // Reads:   values
-// Writes:  Values (count + 1), Longest (the largest element)
+// Writes:  Sums (count + 1), Longest (the largest element)
 // Grid:    one invocation
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
@@ -11,7 +11,7 @@
 layout(local_size_x = 1) in;
 layout(constant_id = 0) const bool kLongest = false;  // The values are elements, not sums of them.
 layout(binding = 0) uniform usamplerBuffer values;
-layout(binding = 1, scalar) writeonly buffer Values { uint result[]; };
+layout(binding = 1, scalar) writeonly buffer Sums { uint sums[]; };
 layout(binding = 2, scalar) buffer Longest { uint longest; };
 layout(push_constant, scalar) uniform Push { ScanParams params; };
 
@@ -21,11 +21,11 @@ void main() {
     uint i = 0u;
     while (i < params.count) {
         uint value = texelFetch(values, int(i)).x;
-        result[i] = sum;
+        sums[i] = sum;
         largest = max(largest, value);
         sum = saturating_add(sum, value);
         ++i;
     }
-    result[params.count] = sum;
+    sums[params.count] = sum;
     if (kLongest) longest = largest;
 }

@@ -103,6 +103,7 @@ struct TraceParams {
     uint stratum_first;
     uint stratum_count;
     uint spp;
+    float stratum_length;  // math/sample.h
     uint seed;
     uint list_first;
     float depth_near;  // A hit's depth is > depth_near and < depth_far.
@@ -116,6 +117,7 @@ struct MapDepthParams {
     uint stratum_first;
     uint stratum_count;
     uint spp;
+    float stratum_length;  // math/sample.h
     uint seed;
 };
 
@@ -135,10 +137,11 @@ struct FssmParams {
     uint tile_first;  // Tiles [tile_first, tile_first + tile_count) of the map.
     uint tile_count;
     uint layer_first;        // Where the first tile's layers are in memory,
-    uint tuple_first;        // and its tuples in the bound memory.
+    uint tuple_first;        // and the tuples of its grid in the bound memory.
     uint sample_tile_first;  // The tile of the map, of 8 x 8 texels, whose samples are the first in memory,
     uint sample_stride;      // and samples from one stratum to the next.
     uint spp;
+    float stratum_length;  // math/sample.h
     uint seed;
     uint stratum_first;  // Strata [stratum_first, stratum_first + stratum_count).
     uint stratum_count;
@@ -146,10 +149,8 @@ struct FssmParams {
 
 struct FssmMipParams {
     uint layer_count;
-    uint layer_first;  // Number in memory of the first layer,
-    uint tuple_first;  // and where its tuples are in the bound memory.
-    uint from;         // Place in a layer of the level that is read,
-    uint to;           // and of that which is written,
+    uint read_first;   // Where the first layer's tuples are in the bound memory of the level that is read,
+    uint write_first;  // and in that of the level that is written,
     uint level_bits;   // whose width is 2^level_bits texels.
 };
 
@@ -164,15 +165,16 @@ struct ShadowParams {
     uint stratum_first;
     uint stratum_count;
     uint spp;
+    float stratum_length;  // math/sample.h
     uint seed;
     uint light;
     uint light_width;
     uint light_height;
-    uint light_tiles_x;
     uint light_cell_count;
     uint light_tile_stride;  // Item of tile and cell: tile * light_tile_stride + cell * light_cell_stride.
     uint light_cell_stride;
-    float scale_x;  // Raster units per metre (orthographic), or per unit slope (perspective).
+    float light_cell_length;  // Of the shutter.
+    float scale_x;            // Raster units per metre (orthographic), or per unit slope (perspective).
     float scale_y;
     float cone_tan2;   // Squared tangent of a spot's outer half angle.
     float tolerance;   // The least metres along a hit's normal within which nothing occludes.
@@ -190,6 +192,7 @@ struct ShadeParams {
     uint stratum_first;
     uint stratum_count;
     uint spp;
+    float stratum_length;  // math/sample.h
     uint seed;
     uint light_count;
     uint key_count;

@@ -28,6 +28,7 @@ struct Limits {
     uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
     uint32_t subgroup_size = 1;      ///< Of all pipelines; a device that cannot be asked for one size may use others.
+    uint32_t crew = 8;               ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
     uint32_t storage_buffers = 4;    ///< Of one shader.
     uint32_t push_constant_bytes = 128;
     bool timestamps = false;  ///< Else stages have no seconds.

@@ -70,7 +70,7 @@ void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bin
                   {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
                   {"MapSamples", &samples, {}, first * element, batch.slot_count() * element}}),
         shared::MapDepthParams{bins.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
-                               sampling.spp, sampling.seed},
+                               sampling.spp, shared::stratum_length(sampling.spp), sampling.seed},
         groups_of(batch.slot_count(), 64));
 }
 

@@ -53,7 +53,8 @@ private:
     Sampling sampling_;
     uint32_t tile_count_;
     uint64_t cluster_count_ = 0;
-    gpu::Buffer offsets_, clusters_, unbound_;
+    gpu::Buffer offsets_, clusters_;
+    Unbound unbound_;
 };
 
 DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
@@ -61,7 +62,7 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
       bins_(bins),
       sampling_(dsm_sampling(light)),
       tile_count_(bins.grid.tiles_x * bins.grid.tiles_y),
-      unbound_(light.device.allocate("unbound", 16)) {
+      unbound_(light.device, 3) {
     gpu::Device& device = light.device;
     const uint64_t texels = uint64_t(tile_count_) * shared::kTileTexels;
     offsets_ = device.allocate("map_offsets", (texels + 1) * 4);
@@ -97,27 +98,30 @@ DeepShadowMap::Piece DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buf
     const uint32_t texels = batch.tile_count * shared::kTileTexels;
     const AxisLength extent = dsm_extent(light_);
     const gpu::Buffer counts = device.allocate("cluster_counts", scan_bytes(texels));
+    const gpu::Buffer sums = device.allocate("cluster_sums", scan_bytes(texels));
     const shared::ClusterParams params{
         batch.tile_count, sampling_.spp,   batch.tile_first * shared::kTileTexels, static_cast<uint32_t>(cluster_count_),
         extent.metres,    extent.per_metre};
-    const auto record = [&](gpu::Recorder& recorder, bool fill, const gpu::Buffer& clusters) {
-        recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill}),
-                          bindings({{"map_samples", &samples, Texel::r32_float},
-                                    {"scanned", fill ? &counts : &unbound_, Texel::r32_uint},
-                                    {"Counts", fill ? &unbound_ : &counts},
-                                    {"Clusters", &clusters},
-                                    {"Offsets", fill ? &offsets_ : &unbound_}}),
-                          params, groups_of(texels, 64));
+    const auto record = [&](gpu::Recorder& recorder, bool fill, std::initializer_list<gpu::Binding> own) {
+        std::vector<gpu::Binding> all = own;
+        all.push_back({"map_samples", &samples, Texel::r32_float});
+        recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill}), all, params,
+                          groups_of(texels, 64));
     };
     gpu::Recorder recorder(device);
     record_depths(recorder, light_, bins_, tracer, sampling_, 1, batch, samples, 0);
     recorder.fill("map/cluster", counts, 0);
-    record(recorder, false, unbound_);
-    const Scan scan = record_scan(device, light_.programs, recorder, counts, texels);
+    record(recorder, false,
+           {{"Counts", &counts},
+            unbound_.at(0, "scanned", Texel::r32_uint),
+            unbound_.at(1, "Clusters"),
+            unbound_.at(2, "Offsets")});
+    const Scan scan = record_scan(device, light_.programs, recorder, counts, texels, sums);
     recorder.submit();
-    const uint32_t found = gpu::download_vector<uint32_t>(device, counts, 1, uint64_t(texels) * 4)[0];
+    const uint32_t found = gpu::download_vector<uint32_t>(device, sums, 1, uint64_t(texels) * 4)[0];
     gpu::Buffer clusters = device.allocate("cluster_pieces", found * sizeof(glm::vec2));
-    record(recorder, true, clusters);
+    record(recorder, true,
+           {unbound_.at(0, "Counts"), {"scanned", &sums, Texel::r32_uint}, {"Clusters", &clusters}, {"Offsets", &offsets_}});
     recorder.submit();
     cluster_count_ += found;
     return {std::move(clusters), found};

@@ -6,6 +6,7 @@
 #include <gnomon/error.hpp>
 
 #include "math/fssm.h"
+#include "math/sample.h"
 #include "stages/grid.hpp"
 
 namespace gnomon {
@@ -14,6 +15,8 @@ namespace {
 using gpu::Texel;
 
 constexpr uint64_t kTupleBytes = 16, kSampleBytes = 16, kLayerHeadBytes = 16;
+// Tuples from one place to the next at which any device can bind them: 256 bytes.
+constexpr uint32_t kTupleAlign = 16;
 // Strata that one dispatch adds to the grids: an invocation of methods/fssm/reproject goes round once for each of the window's
 // samples, at most 256 a stratum, and lavapipe ends its loops after 65,535 iterations.
 constexpr uint32_t kStrataAtOnce = 128;
@@ -174,7 +177,12 @@ void Fssm::fill(const Band& band) {
     const Rows rows = {base_ / tiles_x_, static_cast<uint32_t>(band.range_count) / tiles_x_};
     const uint32_t most = rows_at_once(rows.count);
     layers_ = device.allocate("fssm.layers", band.range_count * layer_count_ * kLayerHeadBytes);
-    tuples_ = device.allocate("fssm.tuples", band.range_count * layer_count_ * tuple_count_ * kTupleBytes);
+    level_first_ = {0};
+    const auto layers = static_cast<uint32_t>(band.range_count) * layer_count_;
+    for (uint32_t level = 1; level < level_count_; ++level)
+        level_first_.push_back(shared::next_level(level_first_.back(), layers, sizes_.grid >> (level - 1)));
+    const uint32_t last_size = sizes_.grid >> (level_count_ - 1);
+    tuples_ = device.allocate("fssm.tuples", (level_first_.back() + uint64_t(layers) * last_size * last_size) * kTupleBytes);
     samples_ = device.allocate("map_samples", window_texels(most) * sampling_.spp * kSampleBytes);
     Tracer tracer(device, light_.programs, light_.geometry, light_.view, bins_, "map/trace", sampling_, window_texels(most));
     gpu::Recorder recorder(device);
@@ -203,15 +211,11 @@ void Fssm::fill_rows(gpu::Recorder& recorder, Tracer& tracer, const Rows& rows, 
 
     const uint32_t own_first = rows.first * tiles_x_, own_count = rows.count * tiles_x_;
     const uint32_t layer_first = (own_first - band.first * tiles_x_) * layer_count_, layers = own_count * layer_count_;
-    // Bound from where the device allows it on.
-    const uint64_t begin = uint64_t(layer_first) * tuple_count_ * kTupleBytes;
-    const uint64_t offset = begin - begin % light_.device.limits().storage_alignment;
-    const gpu::Binding tuples = {
-        "Tuples", &tuples_, {}, offset, begin - offset + uint64_t(layers) * tuple_count_ * kTupleBytes};
-    const auto tuple_first = static_cast<uint32_t>((begin - offset) / kTupleBytes);
-    shared::FssmParams params{grid,       tiles_x_, own_first,     own_count,      layer_first, tuple_first,
-                              tile_first, stride,   sampling_.spp, sampling_.seed, 0,           sampling_.spp};
-    const std::vector<uint32_t> constants = {sizes_.tile, sizes_.window, sizes_.grid, layer_count_, tuple_count_};
+    const Tuples tuples = tuples_in(0, layer_first, layers);
+    shared::FssmParams params{grid,           tiles_x_,   own_first,    own_count,     layer_first,
+                              tuples.first,   tile_first, stride,       sampling_.spp, shared::stratum_length(sampling_.spp),
+                              sampling_.seed, 0,          sampling_.spp};
+    const std::vector<uint32_t> constants = {sizes_.tile, sizes_.window, sizes_.grid, layer_count_};
     recorder.dispatch("map/layers", programs.get("methods/fssm/layers", constants),
                       bindings({{"map_samples", &samples_, Texel::rgba32_float}, {"Layers", &layers_}}), params, own_count);
     const uint64_t stratum_bytes = stride * kSampleBytes;
@@ -222,24 +226,29 @@ void Fssm::fill_rows(gpu::Recorder& recorder, Tracer& tracer, const Rows& rows, 
             "map/reproject", programs.get("methods/fssm/reproject", constants),
             bindings({{"map_samples", &samples_, Texel::rgba32_float, s * stratum_bytes, params.stratum_count * stratum_bytes},
                       {"layers", &layers_, Texel::rgba32_float},
-                      tuples}),
+                      tuples.binding(*this, "Tuples")}),
             params, groups_of(own_count, 64));
     }
-    record_mips(recorder, layer_first, layers, tuples, tuple_first);
+    record_mips(recorder, layer_first, layers);
 }
 
-void Fssm::record_mips(gpu::Recorder& recorder, uint32_t layer_first, uint32_t layer_count, const gpu::Binding& written,
-                       uint32_t tuple_first) {
-    uint32_t from = 0, size = sizes_.grid;
+Fssm::Tuples Fssm::tuples_in(uint32_t level, uint32_t layer_first, uint32_t layer_count) const {
+    const uint32_t size = sizes_.grid >> level;
+    const uint32_t begin = layer_first * size * size, bound = begin / kTupleAlign * kTupleAlign;
+    return {(level_first_[level] + bound) * kTupleBytes, (begin - bound + uint64_t(layer_count) * size * size) * kTupleBytes,
+            begin - bound};
+}
+
+void Fssm::record_mips(gpu::Recorder& recorder, uint32_t layer_first, uint32_t layer_count) {
     for (uint32_t level = 1; level < level_count_; ++level) {
-        const uint32_t to = from + size * size;
-        size /= 2;
-        recorder.dispatch("map/mips", light_.programs.get("methods/fssm/mips", {tuple_count_}),
-                          bindings({{"tuples", &tuples_, Texel::rgba32_float}, written}),
-                          shared::FssmMipParams{layer_count, layer_first, tuple_first, from, to,
-                                                static_cast<uint32_t>(std::countr_zero(size))},
-                          groups_of(uint64_t(layer_count) * size * size, 64));
-        from = to;
+        const Tuples read = tuples_in(level - 1, layer_first, layer_count),
+                     written = tuples_in(level, layer_first, layer_count);
+        const uint32_t size = sizes_.grid >> level;
+        recorder.dispatch(
+            "map/mips", light_.programs.get("methods/fssm/mips"),
+            bindings({read.binding(*this, "tuples"), written.binding(*this, "Tuples")}),
+            shared::FssmMipParams{layer_count, read.first, written.first, static_cast<uint32_t>(std::countr_zero(size))},
+            groups_of(uint64_t(layer_count) * size * size, 64));
     }
 }
 
@@ -251,8 +260,8 @@ std::vector<gpu::Binding> Fssm::read_bindings() const {
 
 std::vector<uint32_t> Fssm::test_constants() const {
     std::vector<uint32_t> all = bias_.constants();
-    all.insert(all.end(), {sizes_.tile, sizes_.window, sizes_.grid, layer_count_, tuple_count_, level_count_,
-                           given(light_, "footprint"), given(light_, "tent"), given(light_, "neighbours"), views_move_});
+    all.insert(all.end(), {sizes_.tile, sizes_.window, sizes_.grid, layer_count_, level_count_, given(light_, "footprint"),
+                           given(light_, "tent"), given(light_, "neighbours"), views_move_});
     return all;
 }
 

@@ -44,8 +44,17 @@ private:
     uint32_t rows_at_once(uint32_t row_count) const;     ///< Rows of a band whose samples are made together.
     Rows rows_of(uint32_t first, uint32_t count) const;  ///< In memory for a band of rows of 8 x 8 texels.
     void fill_rows(gpu::Recorder& recorder, Tracer& tracer, const Rows& rows, const Rows& band);
-    void record_mips(gpu::Recorder& recorder, uint32_t layer_first, uint32_t layer_count, const gpu::Binding& written,
-                     uint32_t tuple_first);
+    void record_mips(gpu::Recorder& recorder, uint32_t layer_first, uint32_t layer_count);
+    /// The tuples of some layers in a level.
+    struct Tuples {
+        uint64_t offset = 0;  ///< Of their binding, in bytes.
+        uint64_t bytes = 0;
+        uint32_t first = 0;  ///< Where the first layer's are in the binding.
+        gpu::Binding binding(const Fssm& map, std::string_view name) const {
+            return {name, &map.tuples_, gpu::Texel::rgba32_float, offset, bytes};
+        }
+    };
+    Tuples tuples_in(uint32_t level, uint32_t layer_first, uint32_t layer_count) const;
 
     const LightContext& light_;
     const Bins& bins_;
@@ -56,6 +65,7 @@ private:
     uint32_t tiles_x_, tiles_y_;  ///< The method's tiles.
     bool views_move_ = false;
     uint32_t base_ = 0;
+    std::vector<uint32_t> level_first_;  ///< Of the band in memory, in tuples.
     gpu::Buffer views_, samples_, layers_, tuples_;
 };
 

@@ -25,6 +25,9 @@ public:
     /// anew.
     const gpu::Program& get(const std::string& name, const std::vector<uint32_t>& constants = {});
 
+    /// The specialization constant of stages whose invocations work in crews (common/crew.glsl).
+    uint32_t crew() const { return device_.limits().crew; }
+
 private:
     gpu::Device& device_;
     std::map<std::string, std::vector<uint32_t>> added_;

@@ -101,11 +101,11 @@ Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometr
                           params(0), groups_of(uint64_t(large_blocks) * shared::kBlockTiles, 64));
     };
     gpu::Buffer no_entries = device.allocate("bin_entries", 4);
-    recorder.fill("bin/count", bins.offsets, 0);
+    gpu::Buffer cursors = device.allocate("bin_cursors", scan_bytes(list_count));  // First the counts.
+    recorder.fill("bin/count", cursors, 0);
     recorder.fill("bin/count", block_count, 0);
-    record_lists(false, bins.offsets, no_entries);
-    Scan scan = record_scan(device, programs, recorder, bins.offsets, static_cast<uint32_t>(list_count));
-    gpu::Buffer cursors = device.allocate("bin_cursors", scan_bytes(list_count));
+    record_lists(false, cursors, no_entries);
+    Scan scan = record_scan(device, programs, recorder, cursors, static_cast<uint32_t>(list_count), bins.offsets);
     recorder.copy("bin/fill", bins.offsets, 0, cursors, 0, scan_bytes(list_count));
     recorder.submit();
     bins.entry_count = gpu::download_vector<uint32_t>(device, bins.offsets, 1, list_count * 4)[0];

@@ -20,7 +20,11 @@ uint64_t align_down(uint64_t value) { return value / kRangeAlign * kRangeAlign; 
 }  // namespace
 
 SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout)
-    : device_(device), programs_(programs), raster_(std::move(raster)), layout_(layout) {
+    : device_(device),
+      programs_(programs),
+      raster_(std::move(raster)),
+      layout_(layout),
+      unbound_(device, layout.buffers.size()) {
     const shared::ViewGrid& grid = raster_->grid();
     item_count_ = grid.tiles_x * grid.tiles_y * grid.cell_count;
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;
@@ -29,7 +33,6 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
     range_counts_ = device.allocate("range_counts", blocks * sizeof(glm::uvec2));
     ticket_ = device.allocate("ticket", 4);
-    unbound_ = device.allocate("unbound", 16);
     const bool scanned = std::any_of(layout_.buffers.begin(), layout_.buffers.end(), [](const auto& b) { return b.scan; });
     const uint64_t list_elements = scanned ? scan_bytes(list_count_) / 4 : list_count_;
     for (const LayoutBuffer& description : layout_.buffers) {
@@ -37,7 +40,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
         gpu::Buffer buffer = description.per == LayoutBuffer::Per::range
                                  ? gpu::Buffer()
                                  : device.allocate("s_buffer." + description.block, bytes);
-        memory_.push_back({description, std::move(buffer)});
+        memory_.push_back({description, std::move(buffer), {}});
     }
     count();
 }
@@ -66,7 +69,8 @@ void SBuffer::record_pass(gpu::Recorder& recorder, bool fill, const Band& part) 
     all.push_back({"RangeCounts", &range_counts_});
     all.push_back({"Ticket", &ticket_});
     uint64_t first_bound = std::max<uint64_t>(range_base_, align_down(part.range_first));
-    for (const Memory& m : memory_) {
+    for (size_t i = 0; i < memory_.size(); ++i) {
+        const Memory& m = memory_[i];
         uint64_t size = m.description.element_bytes;
         switch (m.description.per) {
             case LayoutBuffer::Per::once:
@@ -74,14 +78,14 @@ void SBuffer::record_pass(gpu::Recorder& recorder, bool fill, const Band& part) 
                 break;
             case LayoutBuffer::Per::list:
                 all.push_back({m.description.block,
-                               &m.buffer,
+                               m.counts ? &m.counts : &m.buffer,
                                {},
                                uint64_t(part.item_first) * shared::kTileTexels * size,
                                uint64_t(part.item_count) * shared::kTileTexels * size});
                 break;
             case LayoutBuffer::Per::range:
                 if (!m.buffer) {
-                    all.push_back({m.description.block, &unbound_});
+                    all.push_back(unbound_.at(i, m.description.block));
                 } else {
                     all.push_back({m.description.block,
                                    &m.buffer,
@@ -120,9 +124,10 @@ void SBuffer::prepare(gpu::Recorder& recorder, uint32_t item) {
 void SBuffer::count() {
     gpu::Recorder recorder(device_);
     recorder.fill(raster_->timing(false), range_counts_, 0);
-    for (const Memory& m : memory_) {
-        if (m.description.per == LayoutBuffer::Per::list && m.description.scan)
-            recorder.fill(raster_->timing(false), m.buffer, 0);
+    for (Memory& m : memory_) {
+        if (!m.description.scan) continue;
+        m.counts = device_.allocate("s_buffer.counts", m.buffer.bytes());
+        recorder.fill(raster_->timing(false), m.counts, 0);
     }
     // Lists are bound in parts that one binding can hold.
     uint64_t widest = 4;
@@ -139,9 +144,10 @@ void SBuffer::count() {
         }
     }
     std::vector<Scan> scans;
-    for (const Memory& m : memory_) {
-        if (m.description.scan)
-            scans.push_back(record_scan(device_, programs_, recorder, m.buffer, static_cast<uint32_t>(list_count_)));
+    for (Memory& m : memory_) {
+        if (!m.counts) continue;
+        scans.push_back(record_scan(device_, programs_, recorder, m.counts, static_cast<uint32_t>(list_count_), m.buffer));
+        m.counts = gpu::Buffer();
     }
     recorder.submit();
     for (const glm::uvec2& total :

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "layouts/layout.hpp"
+#include "stages/grid.hpp"
 #include "stages/raster_stage.hpp"
 
 namespace gnomon {
@@ -34,6 +35,7 @@ private:
     struct Memory {
         LayoutBuffer description;
         gpu::Buffer buffer;
+        gpu::Buffer counts;  ///< What the count pass writes instead, where `buffer` is to be the prefix sum of it.
     };
 
     void count();
@@ -57,7 +59,7 @@ private:
     std::vector<uint64_t> block_ranges_;  ///< Per kCountBlock items.
     gpu::Buffer range_counts_;
     gpu::Buffer ticket_;
-    gpu::Buffer unbound_;  ///< Stands in for buffers that a pass does not touch.
+    Unbound unbound_;  ///< Stands in for the ranges while they are counted.
     std::vector<Memory> memory_;
 };
 

@@ -12,13 +12,13 @@ using gpu::Texel;
 
 class WalkBins final : public RasterStage {
 public:
-    WalkBins(Programs& programs, const Geometry& geometry, const Bins& bins, std::string shader, bool orthographic,
-             uint32_t items_per_group, uint32_t ranges_per_prism)
+    WalkBins(Programs& programs, const Geometry& geometry, const Bins& bins, std::string shader,
+             std::vector<uint32_t> constants, uint32_t items_per_group, uint32_t ranges_per_prism)
         : programs_(programs),
           geometry_(geometry),
           bins_(bins),
           shader_(std::move(shader)),
-          orthographic_(orthographic),
+          constants_(std::move(constants)),
           items_per_group_(items_per_group),
           ranges_per_prism_(ranges_per_prism) {}
 
@@ -26,7 +26,11 @@ public:
     uint32_t items_per_group() const override { return items_per_group_; }
     uint64_t longest() const override { return uint64_t(bins_.longest) * ranges_per_prism_; }
     uint32_t part_count() const override { return bin_part_count(bins_); }
-    const gpu::Program& program(bool fill) const override { return programs_.get(shader_, {fill, orthographic_}); }
+    const gpu::Program& program(bool fill) const override {
+        std::vector<uint32_t> all = {fill};
+        all.insert(all.end(), constants_.begin(), constants_.end());
+        return programs_.get(shader_, all);
+    }
     std::vector<gpu::Binding> bindings() const override { return bin_bindings(geometry_, bins_); }
 
 private:
@@ -34,7 +38,7 @@ private:
     const Geometry& geometry_;
     const Bins& bins_;
     std::string shader_;
-    bool orthographic_;
+    std::vector<uint32_t> constants_;  // Behind the pass.
     uint32_t items_per_group_;
     uint32_t ranges_per_prism_;
 };
@@ -55,8 +59,12 @@ uint32_t bin_part_count(const Bins& bins) {
 std::unique_ptr<RasterStage> walk_bins(Programs& programs, const Geometry& geometry, const Bins& bins,
                                        const std::string& shader, bool orthographic) {
     const std::string stage = shader.substr(0, shader.find('@'));
-    if (stage == "raster/conservative") return std::make_unique<WalkBins>(programs, geometry, bins, shader, orthographic, 8, 1);
-    if (stage == "raster/analytic") return std::make_unique<WalkBins>(programs, geometry, bins, shader, orthographic, 1, 4);
+    using Constants = std::vector<uint32_t>;
+    if (stage == "raster/conservative") {
+        return std::make_unique<WalkBins>(programs, geometry, bins, shader, Constants{orthographic, programs.crew()}, 8, 1);
+    }
+    if (stage == "raster/analytic")
+        return std::make_unique<WalkBins>(programs, geometry, bins, shader, Constants{orthographic}, 1, 4);
     throw Error(ErrorKind::internal, "no such raster stage", shader, "report this as a bug");
 }
 

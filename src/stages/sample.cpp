@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "math/sample.h"
 #include "shared/film.h"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
@@ -39,6 +40,7 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     const uint64_t most_slots = settings.most_slots;
     lit_ = device.allocate("lit", most_slots * 4 * (settings.fractional ? std::max(1u, settings.light_count) : 1));
     queue_ = device.allocate("queue", most_slots * 4);
+    run_hits_ = device.allocate("run_hits", scan_bytes(most_slots / shared::kScanRun));
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
     ticket_ = device.allocate("ticket", 4);
     film_ = device.allocate("film", film_floats() * 4);
@@ -56,11 +58,11 @@ void Sampler::trace(const Batch& batch) {
     gpu::Recorder recorder(device_);
     tracer_.record(recorder, batch);
     lit_written_ = false;
-    recorder.fill("sample/compact", runs_, 0);
+    recorder.fill("sample/compact", run_hits_, 0);
     recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
-                      bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"Runs", &runs_}}),
+                      bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"Runs", &run_hits_}}),
                       shared::CompactParams{run_count}, groups_of(run_count, 64));
-    Scan scan = record_scan(device_, programs_, recorder, runs_, run_count);
+    Scan scan = record_scan(device_, programs_, recorder, run_hits_, run_count, runs_);
     recorder.dispatch(
         "sample/compact", programs_.get("sample/compact"),
         bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"runs", &runs_, Texel::r32_uint}, {"Queue", &queue_}}),
@@ -108,14 +110,15 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     batch_.stratum_first,
                                     batch_.stratum_count,
                                     settings_.spp,
+                                    shared::stratum_length(settings_.spp),
                                     settings_.seed,
                                     light.light_ix,
                                     light.view.width,
                                     light.view.height,
-                                    light.bins.grid.tiles_x,
                                     order.cell_count,
                                     order.tile_stride,
                                     order.cell_stride,
+                                    shared::stratum_length(order.cell_count),
                                     light.view.scale_x,
                                     light.view.scale_y,
                                     light.view.cone_tan2,
@@ -158,14 +161,14 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
                   {"normals", &geometry_.normals, Texel::rgba32_float},
                   {"attributes", &geometry_.attributes, Texel::rgba32_float},
                   {"materials", &geometry_.materials, Texel::rgba32_uint},
-                  {"texels", &geometry_.texels, Texel::r32_uint},
+                  {"texels", &geometry_.texels, Texel::rgba32_uint},
                   {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
                   {"lights", &lights, Texel::rgba32_float},
                   {"Film", &film_},
                   {"Depths", &depth_values_}}),
         shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count,
-                            settings_.spp, settings_.seed, settings_.light_count, static_cast<uint32_t>(view_.keys.size()),
-                            static_cast<uint32_t>(settings_.most_slots)},
+                            settings_.spp, shared::stratum_length(settings_.spp), settings_.seed, settings_.light_count,
+                            static_cast<uint32_t>(view_.keys.size()), static_cast<uint32_t>(settings_.most_slots)},
         batch_.tile_count);
     recorder.submit();
 }

@@ -71,7 +71,7 @@ private:
     uint32_t queue_count_ = 0;
     uint64_t hit_total_ = 0;
     ShadowCounts counts_;
-    gpu::Buffer lit_, queue_, runs_, ticket_, film_, depth_values_, shadow_counts_, iterators_, srgb_to_linear_;
+    gpu::Buffer lit_, queue_, run_hits_, runs_, ticket_, film_, depth_values_, shadow_counts_, iterators_, srgb_to_linear_;
 };
 
 }  // namespace gnomon

@@ -13,45 +13,46 @@ namespace {
 constexpr uint32_t kSerialCount = 1024;
 
 void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values, uint32_t count,
-                  bool first_level, Scan& scan) {
+                  const gpu::Buffer& sums, bool first_level, const Scan& scan) {
     using gpu::Texel;
     if (count <= kSerialCount) {
         recorder.dispatch("scan", programs.get("scan/serial", {first_level}),
-                          bindings({{"values", &values, Texel::r32_uint}, {"Values", &values}, {"Longest", &scan.longest}}),
+                          bindings({{"values", &values, Texel::r32_uint}, {"Sums", &sums}, {"Longest", &scan.longest}}),
                           shared::ScanParams{count, 0, 1}, 1);
         return;
     }
-    uint32_t runs = static_cast<uint32_t>(groups_of(count, shared::kScanRun));
-    gpu::Buffer sums = device.allocate("scan_sums", scan_bytes(runs));
-    recorder.fill("scan", sums, 0);
+    uint32_t run_count = static_cast<uint32_t>(groups_of(count, shared::kScanRun));
+    const gpu::Buffer runs = device.allocate("scan_runs", scan_bytes(run_count));
+    const gpu::Buffer before = device.allocate("scan_sums", scan_bytes(run_count));
+    recorder.fill("scan", runs, 0);
     recorder.dispatch("scan", programs.get("scan/reduce", {first_level}),
-                      bindings({{"values", &values, Texel::rgba32_uint}, {"Sums", &sums}, {"Longest", &scan.longest}}),
-                      shared::ScanParams{count, 0, runs}, groups_of(runs, 64));
-    record_level(device, programs, recorder, sums, runs, false, scan);
-    // The values are written through bindings of what the device can bind at once; whole runs, and the total behind the last.
+                      bindings({{"values", &values, Texel::rgba32_uint}, {"Runs", &runs}, {"Longest", &scan.longest}}),
+                      shared::ScanParams{count, 0, run_count}, groups_of(run_count, 64));
+    record_level(device, programs, recorder, runs, run_count, before, false, scan);
+    // The sums are written through bindings of what the device can bind at once; whole runs, and the total behind the last.
     uint64_t most_runs = std::max<uint64_t>(1, device.limits().max_storage_range / (4 * shared::kScanRun) - 1) / 64 * 64;
-    for (uint64_t first = 0; first < runs; first += most_runs) {
-        uint32_t part = static_cast<uint32_t>(std::min<uint64_t>(most_runs, runs - first));
+    for (uint64_t first = 0; first < run_count; first += most_runs) {
+        uint32_t part = static_cast<uint32_t>(std::min<uint64_t>(most_runs, run_count - first));
         uint64_t offset = first * shared::kScanRun * 4;
-        uint64_t bytes = first + part < runs ? uint64_t(part) * shared::kScanRun * 4 : scan_bytes(count) - offset;
+        uint64_t bytes = first + part < run_count ? uint64_t(part) * shared::kScanRun * 4 : scan_bytes(count) - offset;
         recorder.dispatch("scan", programs.get("scan/spread"),
                           bindings({{"values", &values, Texel::rgba32_uint},
-                                    {"sums", &sums, Texel::r32_uint},
-                                    {"Values", &values, {}, offset, bytes}}),
+                                    {"runs", &before, Texel::r32_uint},
+                                    {"Sums", &sums, {}, offset, bytes}}),
                           shared::ScanParams{count, static_cast<uint32_t>(first), part}, groups_of(part, 64));
     }
-    scan.sums.push_back(std::move(sums));
 }
 
 }  // namespace
 
 uint64_t scan_bytes(uint64_t count) { return (count + 1 + 3) / 4 * 16; }
 
-Scan record_scan(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values, uint32_t count) {
+Scan record_scan(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values, uint32_t count,
+                 const gpu::Buffer& sums) {
     Scan scan;
     scan.longest = device.allocate("scan_longest", 4);
     recorder.fill("scan", scan.longest, 0);
-    record_level(device, programs, recorder, values, count, true, scan);
+    record_level(device, programs, recorder, values, count, sums, true, scan);
     return scan;
 }
 

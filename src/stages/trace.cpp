@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/trace.hpp"
 
+#include "math/sample.h"
 #include "shared/slot.h"
 #include "stages/grid.hpp"
 
@@ -34,7 +35,8 @@ void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
     for (uint32_t first = 0; first == 0 || first < bins_.longest; first += chunk) {
         recorder.fill(stage_, ticket_, 0);
         recorder.dispatch(
-            stage_, programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0, sampling_.sliced}),
+            stage_,
+            programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0, sampling_.sliced, programs_.crew()}),
             bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
                       {"bin_entries", &bins_.entries, Texel::r32_uint},
                       {"triangles", &geometry_.triangles, Texel::rgba32_uint},
@@ -42,7 +44,8 @@ void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
                       {"Hits", &hits_},
                       {"Ticket", &ticket_}}),
             shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
-                                sampling_.spp, sampling_.seed, first, view_.depth_near, view_.depth_far},
+                                sampling_.spp, shared::stratum_length(sampling_.spp), sampling_.seed, first, view_.depth_near,
+                                view_.depth_far},
             groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
     }
 }

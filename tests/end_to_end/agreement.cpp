@@ -34,7 +34,7 @@ std::vector<T> drawn(std::vector<T> all) {
 oracle::SamplePoint sample_at(size_t index, uint32_t width, uint32_t spp, uint32_t seed) {
     const auto s = static_cast<uint32_t>(index % spp), pixel = static_cast<uint32_t>(index / spp);
     const uint32_t x = pixel % width, y = pixel / width;
-    const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, seed), x, y, s, spp);
+    const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, seed), x, y, s, shared::stratum_length(spp));
     return {p.x, p.y, p.z};
 }
 

@@ -59,7 +59,7 @@ protected:
         std::vector<Sample> samples;
         for (uint32_t i = 0; i < frame.samples.size(); ++i) {
             const uint32_t pixel = i / kSpp, x = pixel % kSize, y = pixel / kSize;
-            const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, 0), x, y, i % kSpp, kSpp);
+            const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, 0), x, y, i % kSpp, shared::stratum_length(kSpp));
             samples.push_back({0.25 * (2.0 * p.x / kSize - 1.0), 0.25 * (1.0 - 2.0 * p.y / kSize), p.z, frame.samples[i]});
         }
         return samples;

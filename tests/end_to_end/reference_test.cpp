@@ -130,7 +130,8 @@ Mismatches mismatches(const Frame& frame, const Frame& truth, const MovingTriang
         ++result.count;
         const auto pixel = static_cast<uint32_t>(i / settings.spp), s = static_cast<uint32_t>(i % settings.spp);
         const uint32_t x = pixel % settings.width, y = pixel / settings.width;
-        const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, settings.seed), x, y, s, settings.spp);
+        const glm::vec3 p =
+            shared::sample_point(shared::pixel_hash(x, y, settings.seed), x, y, s, shared::stratum_length(settings.spp));
         if (!nearby_answer(oracle, p, frame.samples[i])) ++result.unexplained;
     }
     return result;

@@ -87,8 +87,8 @@ protected:
         uint64_t hits = 0, shadowed = 0, other_triangle = 0, other_light = 0;
         for (size_t i = 0; i < answers.triangle.size(); ++i) {
             const auto pixel = static_cast<uint32_t>(i / kSpp), x = pixel % size.x, y = pixel / size.x;
-            const glm::vec3 p =
-                shared::sample_point(shared::pixel_hash(x, y, kSeed), x, y, static_cast<uint32_t>(i % kSpp), kSpp);
+            const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, kSeed), x, y, static_cast<uint32_t>(i % kSpp),
+                                                     shared::stratum_length(kSpp));
             const SampleRecord expected = brute_force.sample(p.x, p.y, p.z);
             if (answers.triangle[i] != expected.triangle) {
                 ++other_triangle;

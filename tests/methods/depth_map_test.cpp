@@ -61,8 +61,10 @@ Checked check_map(const Soup& soup, const shared::ViewGrid& grid, const std::vec
         const glm::uvec2 texel = texel_of(grid, i % texels);
         if (texel.x >= soup.width || texel.y >= soup.height) continue;
         const uint32_t stratum = i / texels, hash = shared::pixel_hash(texel.x, texel.y, sampling.seed);
-        const glm::dvec3 p = sampling.sliced ? glm::dvec3(texel.x + 0.5, texel.y + 0.5, (stratum + 0.5) / sampling.spp)
-                                             : glm::dvec3(shared::sample_point(hash, texel.x, texel.y, stratum, sampling.spp));
+        const glm::dvec3 p =
+            sampling.sliced
+                ? glm::dvec3(texel.x + 0.5, texel.y + 0.5, (stratum + 0.5) / sampling.spp)
+                : glm::dvec3(shared::sample_point(hash, texel.x, texel.y, stratum, shared::stratum_length(sampling.spp)));
         const auto segment = std::min(static_cast<uint32_t>(p.z * soup.segments()), soup.segments() - 1);
         const double s = p.z * soup.segments() - segment;
         const std::vector<oracle::Seen> seen =

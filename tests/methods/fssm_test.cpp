@@ -67,7 +67,8 @@ private:
                 if (x < 0 || y < 0 || x >= int(kResolution) || y >= int(kResolution)) continue;
                 const auto ux = static_cast<uint32_t>(x), uy = static_cast<uint32_t>(y);
                 for (uint32_t s = 0; s < spp_; ++s)
-                    samples.push_back(sample(shared::sample_point(shared::pixel_hash(ux, uy, seed_), ux, uy, s, spp_)));
+                    samples.push_back(sample(
+                        shared::sample_point(shared::pixel_hash(ux, uy, seed_), ux, uy, s, shared::stratum_length(spp_))));
             }
         }
         return samples;
@@ -166,7 +167,7 @@ TEST_P(FssmOracleTest, EverySampleHasTheOraclesLight) {
     for (uint32_t i = 0; i < kSide * kSide * kSpp; ++i) {
         const uint32_t x = i / kSpp % kSide, y = i / kSpp / kSide, s = i % kSpp;
         const uint32_t hash = shared::pixel_hash(x, y, settings.seed);
-        const glm::dvec3 point(shared::sample_point(hash, x, y, s, kSpp));
+        const glm::dvec3 point(shared::sample_point(hash, x, y, s, shared::stratum_length(kSpp)));
         const double t = point.z, metres = 2.0 * scene.half_height / kSide;
         const glm::dvec3 eye = scene.at(scene.camera_keys, t);
         const LevelScene::Seen seen =

@@ -131,7 +131,7 @@ Frame brute_force_trace(const Scene& scene, const std::vector<Pose>& poses, cons
         for (uint32_t x = 0; x < settings.width; ++x) {
             const uint32_t hash = shared::pixel_hash(x, y, settings.seed);
             for (uint32_t s = 0; s < settings.spp; ++s) {
-                const glm::vec3 p = shared::sample_point(hash, x, y, s, settings.spp);
+                const glm::vec3 p = shared::sample_point(hash, x, y, s, shared::stratum_length(settings.spp));
                 frame.samples.push_back(tracer.sample(p.x, p.y, p.z));
             }
         }

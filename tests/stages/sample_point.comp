@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: samples as the device computes them.
-// Reads:   Queries (pixel x, pixel y, sample, samples per pixel)
+// Reads:   Queries (pixel x, pixel y, stratum, bits of the strata\'s length)
 // Writes:  Points
 // Grid:    one invocation per query
 #extension GL_GOOGLE_include_directive : require
@@ -16,5 +16,5 @@ layout(push_constant, scalar) uniform Push { uint seed; };
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     uvec4 q = queries[i];
-    points[i] = sample_point(pixel_hash(q.x, q.y, seed), q.x, q.y, q.z, q.w);
+    points[i] = sample_point(pixel_hash(q.x, q.y, seed), q.x, q.y, q.z, uintBitsToFloat(q.w));
 }

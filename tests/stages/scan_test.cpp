@@ -18,9 +18,10 @@ protected:
         padded.resize(scan_bytes(values.size()) / 4);
         gpu::Buffer buffer = gpu::upload_new(device(), "values", padded);
         gpu::Recorder recorder(device());
-        const Scan scan = record_scan(device(), programs(), recorder, buffer, static_cast<uint32_t>(values.size()));
+        const gpu::Buffer sums = device().allocate("sums", scan_bytes(values.size()));
+        const Scan scan = record_scan(device(), programs(), recorder, buffer, static_cast<uint32_t>(values.size()), sums);
         recorder.submit();
-        return {gpu::download_vector<uint32_t>(device(), buffer, values.size() + 1), longest_of(device(), scan)};
+        return {gpu::download_vector<uint32_t>(device(), sums, values.size() + 1), longest_of(device(), scan)};
     }
 
     void expect_as_oracle(const std::vector<uint32_t>& values) {

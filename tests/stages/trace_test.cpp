@@ -168,8 +168,8 @@ TEST_F(WatertightTest, SamplesOnVertices) {
                     if (above) p.y *= 9.0f;
                     if (!beside && !above) {
                         const auto px = static_cast<uint32_t>(x), py = static_cast<uint32_t>(y);
-                        const glm::vec3 sample =
-                            shared::sample_point(shared::pixel_hash(px, py, sampling.seed), px, py, on, sampling.spp);
+                        const glm::vec3 sample = shared::sample_point(shared::pixel_hash(px, py, sampling.seed), px, py, on,
+                                                                      shared::stratum_length(sampling.spp));
                         p = glm::vec2(sample.x, sample.y) - 0.5f * float(kSize);
                     }
                     const glm::vec4 place(p, orthographic ? 5.0f : -1.0f, 1.0f);

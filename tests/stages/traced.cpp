@@ -18,7 +18,7 @@ void for_each_sample(const Soup& soup, const Sampling& sampling, Visit visit) {
         for (uint32_t x = 0; x < soup.width; ++x) {
             const uint32_t hash = shared::pixel_hash(x, y, sampling.seed);
             for (uint32_t s = 0; s < sampling.spp; ++s, ++index) {
-                const glm::vec3 p = shared::sample_point(hash, x, y, s, sampling.spp);
+                const glm::vec3 p = shared::sample_point(hash, x, y, s, shared::stratum_length(sampling.spp));
                 const bool straddles = sampling.spp % sampling.cells != 0;
                 const uint32_t cell = straddles ? shared::cell_of(p.z, sampling.cells) : s / (sampling.spp / sampling.cells);
                 const uint32_t segment = cell / (sampling.cells / soup.segments());

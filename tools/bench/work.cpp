@@ -39,7 +39,7 @@ uint64_t list_walks(uint32_t spp, uint32_t cell_count) {
     // As sample/trace goes through them.
     uint64_t walks = 0;
     const auto cell_at = [&](uint32_t stratum) {
-        return shared::cell_of(static_cast<float>(stratum) / static_cast<float>(spp), cell_count);
+        return shared::cell_of(shared::stratum_start(stratum, shared::stratum_length(spp)), cell_count);
     };
     for (uint32_t s = 0; s < spp; ++s) walks += cell_at(s + 1) - cell_at(s) + 1;
     return walks;

@@ -140,7 +140,7 @@ void TileTracer::trace_packet(uint32_t packet, uint32_t s) {
         if (valid[lane] == 0) continue;
         const glm::uvec2 pixel = glm::uvec2(x_px_, y_px_) + pixel_of(packet * kLanes + lane);
         const uint32_t hash = shared::pixel_hash(pixel.x, pixel.y, settings_.seed);
-        const glm::vec3 sample = shared::sample_point(hash, pixel.x, pixel.y, s, settings_.spp);
+        const glm::vec3 sample = shared::sample_point(hash, pixel.x, pixel.y, s, shared::stratum_length(settings_.spp));
         hits[lane].t = sample.z;
         hits[lane].when = key_time(sample.z, world_.surface.segment_count());
         rays[lane] = world_.camera.ray(glm::dvec2(sample), hits[lane].when);

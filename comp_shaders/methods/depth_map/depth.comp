@@ -37,7 +37,7 @@ void main() {
     Slot s = unpack_slot(i, params.stratum_count);
     uvec2 texel = slot_pixel(s, params.tile_first, grid.tiles_x);
     uint stratum = params.stratum_first + s.stratum;
-    vec3 point = view_sample(kSliced, texel.x, texel.y, stratum, params.spp, params.seed);
+    vec3 point = view_sample(kSliced, texel.x, texel.y, stratum, params.stratum_length, params.seed);
     Receiver h = fetch_receiver(entry, texel, point, stratum, params.spp, grid, kStraddle, kOrthographic);
     MovingTriangle m = fetch_moving_triangle(entry, h.segment * grid.vertex_stride, grid.vertex_stride);
     vec4 a = h.barycentrics.x * m.a0 + h.barycentrics.y * m.a1 + h.barycentrics.z * m.a2;

@@ -19,7 +19,7 @@ void main() {
     vec2 map_sample = texelFetch(map_samples, test.here ? int(test.list - params.range_first) : 0).xy;
     if (kMotion) {
         uint stratum = cell_of(test.receiver.t, params.light_cell_count);
-        vec3 point = sample_point(pixel_hash(test.texel.x, test.texel.y, light_seed(params.seed, params.light)), test.texel.x, test.texel.y, stratum, params.light_cell_count);
+        vec3 point = sample_point(pixel_hash(test.texel.x, test.texel.y, light_seed(params.seed, params.light)), test.texel.x, test.texel.y, stratum, params.light_cell_length);
         map_sample.x += map_sample.y * (test.receiver.t - point.z);
     }
     bool shadowed = test.here && map_sample.x < biased_metres(test.depth);

@@ -34,7 +34,7 @@ void main() {
         ends[k] = layer[k].w;
     }
     uint used = layer_count(ends);
-    uint first = params.tuple_first + local * kLayers * kTuples;
+    uint first = params.tuple_first + local * kLayers * kGrid * kGrid;
 
     uint end = params.stratum_first + params.stratum_count;
     uint i = 0u;
@@ -51,7 +51,7 @@ void main() {
             [[unroll]] for (uint k = 0u; k < kMostLayers; ++k) {
                 vec2 p = grid_point(grid[k], w.place, w.t, float(kGrid));
                 bool counts = inside && texel.there && k < used && k <= own && min(p.x, p.y) >= 0.0 && max(p.x, p.y) < float(kGrid);
-                uint at = 4u * (first + k * kTuples + (counts ? uint(p.y) * kGrid + uint(p.x) : 0u));
+                uint at = 4u * (first + k * kGrid * kGrid + (counts ? uint(p.y) * kGrid + uint(p.x) : 0u));
                 if (counts) tuples[at + 3u] += 1.0;
                 own_at = k == own ? at : own_at;
                 depth = k == own ? depth_at_middle(w.depth, layer[k].z, w.t) - layer[k].w : depth;

@@ -12,16 +12,15 @@
 #include "math/footprint.h"
 #include "math/fssm.h"
 
-layout(constant_id = 8) const uint kTile = 8u;           // As in methods/fssm/window.glsl, and so are the next four.
+layout(constant_id = 8) const uint kTile = 8u;           // As in methods/fssm/window.glsl, and so are the next three.
 layout(constant_id = 9) const uint kWindow = 16u;
 layout(constant_id = 10) const uint kGrid = 16u;
 layout(constant_id = 11) const uint kLayers = 4u;
-layout(constant_id = 12) const uint kTuples = 341u;
-layout(constant_id = 13) const uint kLevels = 5u;        // Of a layer's grid: the filter is widened through them. 1: it is not.
-layout(constant_id = 14) const bool kFootprint = true;   // Else the hit is a point in space and time.
-layout(constant_id = 15) const bool kTent = true;        // The filter along v.
-layout(constant_id = 16) const bool kNeighbours = true;  // Lookups near a tile's border may go to the neighbour.
-layout(constant_id = 17) const bool kViewsMove = false;  // The camera or the light.
+layout(constant_id = 12) const uint kLevels = 5u;        // Of a layer's grid: the filter is widened through them. 1: it is not.
+layout(constant_id = 13) const bool kFootprint = true;   // Else the hit is a point in space and time.
+layout(constant_id = 14) const bool kTent = true;        // The filter along v.
+layout(constant_id = 15) const bool kNeighbours = true;  // Lookups near a tile's border may go to the neighbour.
+layout(constant_id = 16) const bool kViewsMove = false;  // The camera or the light.
 layout(binding = 16) uniform samplerBuffer layers;
 layout(binding = 17) uniform samplerBuffer tuples;
 layout(binding = 18) uniform samplerBuffer view_keys;    // Per key: the camera's rows (x, y, metres) and origin, the light's (x, y, w) and origin.
@@ -88,10 +87,11 @@ void main() {
     }
     place -= (tile + 0.5) * float(kTile);
     uint tile_ix = uint(tile.y) * tiles.x + uint(tile.x);
+    uint layers_in_memory = uint(textureSize(layers));
     uint layer_first = test.here ? (tile_ix - params.range_first) * kLayers : 0u;
 
     // Where and when the footprint begins and ends.
-    float half_time = kFootprint ? 0.5 / float(params.spp) : 0.0;
+    float half_time = kFootprint ? 0.5 * params.stratum_length : 0.0;
     vec2 when = vec2(max(t - half_time, 0.0), min(t + half_time, 1.0));
     vec2 begin = place;
     vec2 end = place;
@@ -121,7 +121,7 @@ void main() {
         // What is read behind a loop is that loop's state, tested at its top: see sample/shadow.
         vec4 sum = vec4(0.0);
         int size = int(kGrid);
-        int first = int((layer_first + k) * kTuples);
+        uint level_first = 0u;
         uint level = used ? 0u : kLevels;
         while (level < kLevels && !(sum.w > 0.0)) {
             float probe = 0.0;
@@ -129,13 +129,13 @@ void main() {
             while (probe < probes) {
                 vec2 p = a + along * ((probe + 0.5) / probes);
                 p.y += reach * row / (rows + 1.0);
-                sum += (1.0 - abs(row) / (rows + 1.0)) * tuple_at(p, first, size);
+                sum += (1.0 - abs(row) / (rows + 1.0)) * tuple_at(p, int(level_first + (layer_first + k) * uint(size * size)), size);
                 if (kCount) ++read;
                 row += 1.0;
                 probe += row > rows ? 1.0 : 0.0;
                 row = row > rows ? -rows : row;
             }
-            first += size * size;
+            level_first = next_level(level_first, layers_in_memory, uint(size));
             size /= 2;
             ++level;
         }

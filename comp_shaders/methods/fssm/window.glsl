@@ -6,8 +6,7 @@
 layout(constant_id = 0) const uint kTile = 8u;     // Texels along a side of the method's tiles,
 layout(constant_id = 1) const uint kWindow = 16u;  // of the window around each,
 layout(constant_id = 2) const uint kGrid = 16u;    // of a layer's grid,
-layout(constant_id = 3) const uint kLayers = 4u;   // layers of a tile, 1 to kMostLayers,
-layout(constant_id = 4) const uint kTuples = 341u; // tuples of a layer: the texels of its grid and of its mip levels.
+layout(constant_id = 3) const uint kLayers = 4u;   // layers of a tile, 1 to kMostLayers.
 
 // A texel of the window. Samples are walked texel by texel: what they share is computed once.
 struct WindowTexel {
@@ -39,7 +38,7 @@ struct WindowSample {
 
 WindowSample window_sample(WindowTexel texel, uvec2 tile, uint stratum) {
     vec4 s = texelFetch(map_samples, int(texel.at + (stratum - params.stratum_first) * params.sample_stride));
-    vec3 point = sample_point(texel.hash, texel.place.x, texel.place.y, stratum, params.spp);
+    vec3 point = sample_point(texel.hash, texel.place.x, texel.place.y, stratum, params.stratum_length);
     WindowSample w;
     w.hit = texel.there && s.x < kFarthest;
     w.place = point.xy - (vec2(tile) + 0.5) * float(kTile);

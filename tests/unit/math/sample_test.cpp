@@ -19,13 +19,16 @@ TEST(SamplePoint, LiesInItsPixelAndStratum) {
     for (int i = 0; i < 1'000'000; ++i) {
         const uint32_t spp = 1u + below(i % 3 == 0 ? 65536 : 32), s = below(spp);
         const uint32_t x = below(16384), y = below(16384);
-        const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, below(100)), x, y, s, spp);
+        const float length = shared::stratum_length(spp);
+        const glm::vec3 p = shared::sample_point(shared::pixel_hash(x, y, below(100)), x, y, s, length);
         ASSERT_GE(p.x, float(x));
         ASSERT_LE(p.x, float(x + 1));
         ASSERT_GE(p.y, float(y));
         ASSERT_LE(p.y, float(y + 1));
-        ASSERT_GE(p.z, float(s) / float(spp));
-        ASSERT_LT(p.z, float(s + 1) / float(spp));
+        ASSERT_GE(p.z, shared::stratum_start(s, length));
+        ASSERT_LT(p.z, shared::stratum_start(s + 1, length));
+        ASSERT_LE(shared::stratum_start(spp, length), 1.0f);
+        ASSERT_NEAR(p.z * double(spp), s + 0.5, 0.5 * (1.0 + 1e-6 * spp));
     }
 }
 
@@ -37,7 +40,7 @@ TEST(SamplePoint, IsEvenlySpread) {
         for (uint32_t x = 0; x < kPixels; ++x) {
             const uint32_t hash = shared::pixel_hash(x, y, 3);
             for (uint32_t s = 0; s < kSpp; ++s) {
-                const glm::vec3 p = shared::sample_point(hash, x, y, s, kSpp);
+                const glm::vec3 p = shared::sample_point(hash, x, y, s, shared::stratum_length(kSpp));
                 ++counts[0][std::min(kBins - 1, uint32_t((p.x - float(x)) * kBins))];
                 ++counts[1][std::min(kBins - 1, uint32_t((p.y - float(y)) * kBins))];
                 ++counts[2][std::min(kBins - 1, uint32_t((p.z * kSpp - float(s)) * kBins))];
@@ -54,9 +57,10 @@ TEST(SamplePoint, IsEvenlySpread) {
 // square, less whole pixels.
 TEST(SamplePoint, IsALatticeInThePixel) {
     constexpr double kPlastic = 1.32471795724474602596;
+    const float kLength = shared::stratum_length(1001);
     const uint32_t hash = shared::pixel_hash(0, 0, 9);
     for (uint32_t s = 0; s < 1000; ++s) {
-        const glm::vec3 p = shared::sample_point(hash, 0, 0, s, 1001), q = shared::sample_point(hash, 0, 0, s + 1, 1001);
+        const glm::vec3 p = shared::sample_point(hash, 0, 0, s, kLength), q = shared::sample_point(hash, 0, 0, s + 1, kLength);
         const double dx = double(q.x) - p.x, dy = double(q.y) - p.y;
         EXPECT_NEAR(dx - std::floor(dx), 1.0 / kPlastic, 1e-6);
         EXPECT_NEAR(dy - std::floor(dy), 1.0 / (kPlastic * kPlastic), 1e-6);
