@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The logical device: its queue, its limits, running command buffers, statistics.
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <limits>
 
@@ -124,6 +125,7 @@ Device::Impl::Impl(const std::string& choice, bool validate)
         if (large && (type.propertyFlags & kMappable) == kMappable) limits.mapped = true;
     }
     if (const char* lower = std::getenv("GNOMON_LIMITS")) limits = lower_limits(limits, lower);
+    pace = Pace(1e-3 * limits.dispatch_ms);
 
     const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     fence = create<OwnedFence>(device.get(), vkCreateFence, fence_info, "a fence");
@@ -163,18 +165,21 @@ void Device::Impl::run_once(const std::function<void(VkCommandBuffer)>& record) 
     put_back(std::move(commands));
 }
 
-void Device::Impl::submit_and_wait(VkCommandBuffer commands) {
+double Device::Impl::submit_and_wait(VkCommandBuffer commands) {
     throw_new_messages();  // what was recorded wrongly must not run
     const VkCommandBufferSubmitInfo buffer_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                                 .commandBuffer = commands};
     const VkSubmitInfo2 info{
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer_info};
+    const auto start = std::chrono::steady_clock::now();
     check(vkQueueSubmit2(queue, 1, &info, fence.get()), "submit work");
     const VkFence wait_for = fence.get();
     check(vkWaitForFences(device.get(), 1, &wait_for, VK_TRUE, std::numeric_limits<uint64_t>::max()),
           "wait for submitted work");
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     check(vkResetFences(device.get(), 1, &wait_for), "reset a fence");
     throw_new_messages();
+    return seconds.count();
 }
 
 void Device::Impl::throw_new_messages() {
@@ -208,12 +213,12 @@ void Device::Impl::remove_live(const std::string& name, uint64_t bytes) {
     if (found->second == 0) live_by_name.erase(found);
 }
 
-void Device::Impl::add_stage_time(const std::string& stage, double seconds) {
+void Device::Impl::add_stage_time(const std::string& stage, double seconds, uint64_t dispatches) {
     auto found =
         std::find_if(stage_times.begin(), stage_times.end(), [&](const StageTime& time) { return time.name == stage; });
     if (found == stage_times.end()) found = stage_times.insert(found, {.name = stage});
     found->seconds += seconds;
-    found->dispatches += 1;
+    found->dispatches += dispatches;
 }
 
 Device::Device(const std::string& choice, bool validate) : impl_(std::make_shared<Impl>(choice, validate)) {}
@@ -231,7 +236,10 @@ std::map<std::string, uint64_t> Device::largest_bytes() const { return impl_->la
 
 std::vector<StageTime> Device::stage_times() const { return impl_->stage_times; }
 
+double Device::longest_dispatch_seconds() const { return impl_->longest_dispatch_seconds; }
+
 void Device::reset_statistics() {
+    impl_->longest_dispatch_seconds = 0.0;
     impl_->stage_times.clear();
     impl_->peak_bytes = impl_->live_bytes;
     impl_->largest_by_name.clear();

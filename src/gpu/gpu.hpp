@@ -31,8 +31,9 @@ struct Limits {
     uint32_t crew = 8;               ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
     uint32_t storage_buffers = 4;    ///< Of one shader.
     uint32_t push_constant_bytes = 128;
-    bool timestamps = false;  ///< Else stages have no seconds.
-    bool mapped = false;      ///< The host sees buffers; else uploads and downloads are staged.
+    uint32_t dispatch_ms = 200;  ///< Milliseconds; what is expected to take longer is cut into pieces.
+    bool timestamps = false;     ///< Else stages have no seconds.
+    bool mapped = false;         ///< The host sees buffers; else uploads and downloads are staged.
     bool is_cpu = false;
 };
 
@@ -110,8 +111,9 @@ public:
     /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and
     /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
     /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if the device had no more:
-    /// "texels=65536,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,buffer=67108864,timestamps=0,
-    /// mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's own.
+    /// "texels=65536,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,buffer=67108864,dispatch_ms=1,
+    /// timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's
+    /// own.
     Device(const std::string& choice, bool validate);
     ~Device();
     Device(const Device&) = delete;
@@ -140,7 +142,9 @@ public:
 
     /// Stage times since the last reset, in order of first use.
     std::vector<StageTime> stage_times() const;
-    void reset_statistics();  ///< Stage times, peak and largest bytes.
+    /// Of all that ran as one, a dispatch or a piece of one, since the last reset. Without timestamps an estimate.
+    double longest_dispatch_seconds() const;
+    void reset_statistics();  ///< Stage times, longest dispatch, peak and largest bytes.
 
     struct Impl;
     const std::shared_ptr<Impl>& impl() const { return impl_; }
@@ -160,10 +164,12 @@ public:
 
     /// Run `groups` workgroups. They are spread over x and y (at most max_groups each), so the shader numbers them
     /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and ignores those past the count that it gets in its
-    /// parameters. Every resource of the program must be bound by name, every binding must exist in it, ranges must be within
-    /// the limits and may overlap in one buffer only where neither is of a storage block that may be written (all but readonly
-    /// ones), and the size of params must equal the push-constant block's: else ErrorKind::internal. groups 0: checked, but
-    /// nothing is recorded.
+    /// parameters; the number of rows, gl_NumWorkGroups.y, means nothing to it. So that no device is stopped for working too
+    /// long at one thing, what may take more than dispatch_ms runs in pieces of whole rows, one after the other; what was
+    /// recorded before may have to run for that (and be waited for) while this is recorded. Every resource of the program must
+    /// be bound by name, every binding must exist in it, ranges must be within the limits and may overlap in one buffer only
+    /// where neither is of a storage block that may be written (all but readonly ones), and the size of params must equal the
+    /// push-constant block's: else ErrorKind::internal. groups 0: checked, but nothing is recorded.
     template <class Params>
     void dispatch(std::string_view stage, const Program& program, std::span<const Binding> bindings, const Params& params,
                   uint64_t groups) {

@@ -25,6 +25,7 @@ KnownLimit known(const char* name, T& value) {
 
 std::vector<KnownLimit> known_limits(Limits& limits) {
     return {known("buffer", limits.max_buffer_bytes),
+            known("dispatch_ms", limits.dispatch_ms),
             known("groups", limits.max_groups),
             known("mapped", limits.mapped),
             known("push_constants", limits.push_constant_bytes),

@@ -86,6 +86,7 @@ OwnedPipeline create_pipeline(const Device::Impl& owner, VkPipelineLayout layout
                                               .pData = constants.data()};
     const VkComputePipelineCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO,
+        .flags = VK_PIPELINE_CREATE_DISPATCH_BASE,
         .stage = {.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
                   .pNext = required ? &size_info : nullptr,
                   .flags = full_subgroups
@@ -115,6 +116,8 @@ Program Device::program(const Shader& shader, std::span<const Constant> constant
     Program::Impl& made = *program.impl_;
     made.device = impl_;
     made.name = shader.name;
+    made.key = shader.name;
+    for (const Constant& c : constants) made.key += " " + std::to_string(c.id) + "=" + std::to_string(c.value);
     made.reflection = reflect(shader, constants);
     check_limits(made.reflection, *impl_, shader.name);
     const VkDevice device = impl_->device.get();

@@ -14,10 +14,25 @@ struct Recorder::Impl {
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
 
-    /// Add one command to the stage; record_command(commands) records it.
+    /// A command, or a piece of one.
+    struct Recorded {
+        std::string stage;
+        std::string pace_key;  // of dispatches
+        uint64_t groups = 0;
+        double expected = 0.0;  // seconds
+        bool first_piece = true;
+    };
+
+    /// Add one command; record_command(commands) records it.
     template <class Record>
-    void add(std::string_view stage, Record record_command);
+    void add(Recorded what, Record record_command);
+    /// Add a dispatch of the grid, in pieces where it may take long; record_piece(commands, first_row, rows) records one.
+    template <class Record>
+    void add_pieces(std::string_view stage, const Program::Impl& program, const Grid& grid, Record record_piece);
     void begin();
+    /// Run what is recorded and wait; what it needs stays.
+    void flush();
+    void account(double wall_seconds);
     void reset();
     /// The buffer's Impl, kept until the work is done. Errors: an empty buffer, another device's.
     Buffer::Impl& use(std::string_view stage, const Buffer& buffer, const std::string& name);
@@ -27,7 +42,8 @@ struct Recorder::Impl {
     bool recording = false;
     DescriptorSets sets;
     Timestamps timestamps;
-    std::vector<std::string> stages;  // of the commands recorded, in order
+    std::vector<Recorded> recorded;  // since the last flush, in order
+    double expected = 0.0;           // seconds, of these
     std::vector<std::shared_ptr<const void>> in_use;
 };
 
@@ -45,9 +61,10 @@ void Recorder::Impl::begin() {
 }
 
 template <class Record>
-void Recorder::Impl::add(std::string_view stage, Record record_command) {
+void Recorder::Impl::add(Recorded what, Record record_command) {
     begin();
-    const std::string& name = stages.emplace_back(stage);
+    expected += what.expected;
+    const std::string& name = recorded.emplace_back(std::move(what)).stage;
     const Instance& instance = device->instance;
     if (instance.begin_label) {
         const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name.c_str()};
@@ -60,9 +77,61 @@ void Recorder::Impl::add(std::string_view stage, Record record_command) {
     if (instance.end_label) instance.end_label(commands.buffer);
 }
 
+template <class Record>
+void Recorder::Impl::add_pieces(std::string_view stage, const Program::Impl& program, const Grid& grid, Record record_piece) {
+    const std::string key = std::string(stage) + " " + program.key;
+    for (uint64_t row = 0; row < grid.y;) {
+        const Pace::Piece piece = device->pace.next(key, (grid.y - row) * grid.x);
+        // Without timestamps only what runs alone is measured.
+        const bool alone = piece.probe && !device->limits.timestamps;
+        if (recording && (alone || expected + piece.seconds > device->pace.submission_seconds())) {
+            flush();
+            continue;
+        }
+        const uint64_t rows = std::clamp<uint64_t>(piece.groups / grid.x, 1, grid.y - row);
+        add({std::string(stage), key, rows * grid.x, piece.seconds, row == 0},
+            [&](VkCommandBuffer buffer) { record_piece(buffer, static_cast<uint32_t>(row), static_cast<uint32_t>(rows)); });
+        row += rows;
+        if (piece.probe && row < grid.y) flush();
+    }
+}
+
+void Recorder::Impl::flush() {
+    if (!recording) return;
+    try {
+        record_host_barrier(commands.buffer);
+        check(vkEndCommandBuffer(commands.buffer), "end a command buffer");
+        account(device->submit_and_wait(commands.buffer));
+        check(vkResetCommandPool(device->device.get(), commands.pool.get(), 0), "reset a command pool");
+    } catch (...) {
+        reset();
+        throw;
+    }
+    recording = false;
+    recorded.clear();
+    expected = 0.0;
+    timestamps.reset();
+}
+
+// Without timestamps what ran together is given parts of the time as it was expected to take.
+void Recorder::Impl::account(double wall_seconds) {
+    const bool measured = device->limits.timestamps;
+    const double scale = expected > 0.0 ? wall_seconds / expected : 0.0;
+    const std::vector<double> seconds = timestamps.seconds_between_pairs();
+    for (size_t i = 0; i < recorded.size(); ++i) {
+        const Recorded& what = recorded[i];
+        device->add_stage_time(what.stage, seconds[i], what.first_piece ? 1 : 0);
+        if (what.pace_key.empty()) continue;
+        const double estimate = measured ? seconds[i] : recorded.size() == 1 ? wall_seconds : scale * what.expected;
+        device->pace.measured(what.pace_key, what.groups, estimate);
+        device->longest_dispatch_seconds = std::max(device->longest_dispatch_seconds, estimate);
+    }
+}
+
 void Recorder::Impl::reset() {
     recording = false;
-    stages.clear();
+    recorded.clear();
+    expected = 0.0;
     timestamps.reset();
     check(vkResetCommandPool(device->device.get(), commands.pool.get(), 0), "reset a command pool");
     sets.reset();
@@ -91,24 +160,22 @@ void Recorder::dispatch_bytes(std::string_view stage, const Program& program, st
     const std::vector<Descriptor> descriptors = bind_resources(stage, *code, bindings);
     if (groups == 0) return;
     const uint64_t max_groups = impl_->device->limits.max_groups;
-    // Rows of equal length: fewer than y groups run beyond the last.
-    const uint64_t y = (groups - 1) / max_groups + 1;
-    const uint64_t x = (groups - 1) / y + 1;
-    if (y > max_groups) {
+    const Grid grid = spread_groups(groups, max_groups, impl_->device->pace.longest_row(std::string(stage) + " " + code->key));
+    if (grid.x > max_groups) {
         fail_stage(stage, std::to_string(groups) + " workgroups, of which the device runs at most " +
                               std::to_string(max_groups) + " by " + std::to_string(max_groups));
     }
     impl_->in_use.push_back(code);
     for (const Binding& binding : bindings) impl_->in_use.push_back(binding.buffer->impl());
     const VkDescriptorSet set = impl_->sets.make(code->set_layout.get(), descriptors);
-    impl_->add(stage, [&](VkCommandBuffer commands) {
+    impl_->add_pieces(stage, *code, grid, [&](VkCommandBuffer commands, uint32_t first_row, uint32_t rows) {
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, code->pipeline.get());
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, code->layout.get(), 0, 1, &set, 0, nullptr);
         if (!params.empty()) {
             vkCmdPushConstants(commands, code->layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
                                static_cast<uint32_t>(params.size()), params.data());
         }
-        vkCmdDispatch(commands, static_cast<uint32_t>(x), static_cast<uint32_t>(y), 1);
+        vkCmdDispatchBase(commands, 0, first_row, 0, static_cast<uint32_t>(grid.x), rows, 1);
     });
 }
 
@@ -117,7 +184,7 @@ void Recorder::fill(std::string_view stage, const Buffer& buffer, uint32_t value
     const std::string name = "buffer " + target.name;
     const uint64_t range = checked_range(stage, name, offset, bytes, target.capacity, sizeof(uint32_t));
     if (range % sizeof(uint32_t) != 0) fail_stage(stage, "a fill of " + std::to_string(range) + " bytes of " + name);
-    impl_->add(stage,
+    impl_->add({std::string(stage)},
                [&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, target.memory.buffer.get(), offset, range, value); });
 }
 
@@ -130,7 +197,7 @@ void Recorder::copy(std::string_view stage, const Buffer& from, uint64_t from_of
     checked_range(stage, "buffer " + target.name, to_offset, bytes, target.bytes, 1);
     const bool overlap = &source == &target && from_offset < to_offset + bytes && to_offset < from_offset + bytes;
     if (overlap) fail_stage(stage, "a copy within buffer " + source.name + " between ranges that overlap");
-    impl_->add(stage, [&](VkCommandBuffer commands) {
+    impl_->add({std::string(stage)}, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{.srcOffset = from_offset, .dstOffset = to_offset, .size = bytes};
         vkCmdCopyBuffer(commands, source.memory.buffer.get(), target.memory.buffer.get(), 1, &region);
     });
@@ -138,22 +205,10 @@ void Recorder::copy(std::string_view stage, const Buffer& from, uint64_t from_of
 
 void Recorder::submit() {
     Impl& impl = *impl_;
-    if (!impl.recording) {
-        impl.in_use.clear();
-        impl.device->throw_new_messages();
-        return;
-    }
-    try {
-        record_host_barrier(impl.commands.buffer);
-        check(vkEndCommandBuffer(impl.commands.buffer), "end a command buffer");
-        impl.device->submit_and_wait(impl.commands.buffer);
-        const std::vector<double> seconds = impl.timestamps.seconds_between_pairs();
-        for (size_t i = 0; i < seconds.size(); ++i) impl.device->add_stage_time(impl.stages[i], seconds[i]);
-    } catch (...) {
-        impl.reset();
-        throw;
-    }
-    impl.reset();
+    impl.flush();
+    impl.sets.reset();
+    impl.in_use.clear();
+    impl.device->throw_new_messages();
 }
 
 }  // namespace gnomon::gpu

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "gpu/pace.hpp"
 #include "gpu/reflection.hpp"
 
 namespace gnomon::gpu {
@@ -139,7 +140,8 @@ struct Device::Impl {
     /// Record one command buffer, run it and wait.
     void run_once(const std::function<void(VkCommandBuffer)>& record);
     /// Run an ended command buffer and wait. Errors as Recorder::submit.
-    void submit_and_wait(VkCommandBuffer commands);
+    /// Gives the seconds that the host waited.
+    double submit_and_wait(VkCommandBuffer commands);
     /// Throw what the validation layer said since the last call.
     void throw_new_messages();
     void set_object_name(VkObjectType type, uint64_t handle, const std::string& name);
@@ -155,7 +157,7 @@ struct Device::Impl {
     void remove_live(const std::string& name, uint64_t bytes);
     /// ": name bytes, ..." of the largest live buffers.
     std::string describe_live() const;
-    void add_stage_time(const std::string& stage, double seconds);
+    void add_stage_time(const std::string& stage, double seconds, uint64_t dispatches);
 
     Instance instance;
     Candidate candidate;
@@ -175,6 +177,8 @@ struct Device::Impl {
     std::map<std::string, uint64_t> live_by_name;
     std::map<std::string, uint64_t> largest_by_name;
     std::vector<StageTime> stage_times;
+    double longest_dispatch_seconds = 0.0;
+    Pace pace{0.0};
 };
 
 struct Buffer::Impl {
@@ -193,6 +197,7 @@ struct Buffer::Impl {
 struct Program::Impl {
     std::shared_ptr<Device::Impl> device;
     std::string name;
+    std::string key;  ///< The name with the values of its constants.
     Reflection reflection;
     OwnedSetLayout set_layout;
     OwnedPipelineLayout layout;

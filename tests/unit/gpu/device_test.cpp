@@ -81,7 +81,7 @@ TEST(SubgroupSizes, AreRequiredAndAtMost64WherePossible) {
 TEST(LoweredLimits, AreWhatTheDeviceSeemsToHave) {
     const ScopedVariable lowered("GNOMON_LIMITS",
                                  "texels=65536,storage_range=16777216,storage_buffers=4,push_constants=64,groups=100,"
-                                 "buffer=1000000,timestamps=0,mapped=0");
+                                 "buffer=1000000,dispatch_ms=3,timestamps=0,mapped=0");
     const Device device("", true);
     EXPECT_EQ(device.limits().max_texels, 65536u);
     EXPECT_EQ(device.limits().max_storage_range, 16777216u);
@@ -89,6 +89,7 @@ TEST(LoweredLimits, AreWhatTheDeviceSeemsToHave) {
     EXPECT_EQ(device.limits().push_constant_bytes, 64u);
     EXPECT_EQ(device.limits().max_groups, 100u);
     EXPECT_EQ(device.limits().max_buffer_bytes, 1000000u);
+    EXPECT_EQ(device.limits().dispatch_ms, 3u);
     EXPECT_FALSE(device.limits().mapped);
     EXPECT_FALSE(device.has_timestamps());
 }
