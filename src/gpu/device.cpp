@@ -102,6 +102,7 @@ Device::Impl::Impl(const std::string& choice, bool validate)
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &maintenance3};
     vkGetPhysicalDeviceProperties2(candidate.physical, &properties);
     vulkan_limits = properties.properties.limits;
+    max_allocation_bytes = maintenance3.maxMemoryAllocationSize;
     limits = {.heap_bytes = candidate.description.heap_bytes,
               .max_buffer_bytes = std::min(maintenance3.maxMemoryAllocationSize, maintenance4.maxBufferSize),
               .max_storage_range = vulkan_limits.maxStorageBufferRange,
@@ -229,7 +230,10 @@ const Limits& Device::limits() const { return impl_->limits; }
 bool Device::has_timestamps() const { return impl_->limits.timestamps; }
 const std::vector<std::string>& Device::validation_messages() const { return impl_->instance.messages; }
 
-void Device::set_budget(uint64_t bytes) { impl_->budget = bytes; }
+void Device::set_budget(uint64_t bytes) {
+    impl_->budget = bytes;
+    impl_->release_memory(impl_->most_held_bytes());
+}
 uint64_t Device::live_bytes() const { return impl_->live_bytes; }
 uint64_t Device::peak_bytes() const { return impl_->peak_bytes; }
 std::map<std::string, uint64_t> Device::largest_bytes() const { return impl_->largest_by_name; }

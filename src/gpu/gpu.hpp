@@ -39,8 +39,8 @@ struct Limits {
 
 class Device;
 
-/// Device memory with a name. Move-only; freed when it goes, or, if recorded work still needs it, when that work is done. May
-/// outlive its Device object. An empty Buffer has no device.
+/// Device memory with a name, of a pool that the device keeps. Move-only; given back when it goes, or, if recorded work still
+/// needs it, when that work is done. May outlive its Device object. An empty Buffer has no device.
 class Buffer {
 public:
     Buffer();
@@ -129,8 +129,9 @@ public:
     /// Errors: ErrorKind::out_of_memory naming the buffer and its size; also when the budget would be passed.
     Buffer allocate(const std::string& name, uint64_t bytes);
 
-    /// Bytes of buffers that may be allocated at one time; 0: no limit. Where upload and download have to stage, they use 32
-    /// MiB of host memory besides.
+    /// Bytes of buffers that may be allocated at one time; 0: no limit. Memory of buffers that are gone is kept for later ones
+    /// while all of it is within the budget, or without one within half the largest heap, and given back where an allocation
+    /// would fail without it. Where upload and download have to stage, they use 32 MiB of host memory besides.
     void set_budget(uint64_t bytes);
     uint64_t live_bytes() const;
     uint64_t peak_bytes() const;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside src/gpu only: Vulkan handles that free themselves, errors from its results, and what the types of gpu.hpp hold.
+// Inside src/gpu only: errors from results of Vulkan, and what the types of gpu.hpp hold.
 #pragma once
-
-#include <vulkan/vulkan.h>
 
 #include <functional>
 #include <gnomon/error.hpp>
@@ -16,44 +14,12 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "gpu/owned.hpp"
 #include "gpu/pace.hpp"
+#include "gpu/pool.hpp"
 #include "gpu/reflection.hpp"
 
 namespace gnomon::gpu {
-
-/// A child of a VkDevice, destroyed with this object.
-template <class T, void(VKAPI_PTR* kDestroy)(VkDevice, T, const VkAllocationCallbacks*)>
-class Owned {
-public:
-    Owned() = default;
-    Owned(VkDevice device, T handle) : device_(device), handle_(handle) {}
-    Owned(Owned&& other) noexcept : device_(other.device_), handle_(std::exchange(other.handle_, T{})) {}
-    Owned& operator=(Owned&& other) noexcept {
-        std::swap(device_, other.device_);
-        std::swap(handle_, other.handle_);
-        return *this;
-    }
-    ~Owned() {
-        if (handle_) kDestroy(device_, handle_, nullptr);
-    }
-    T get() const { return handle_; }
-
-private:
-    VkDevice device_ = VK_NULL_HANDLE;
-    T handle_ = VK_NULL_HANDLE;
-};
-
-using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
-using OwnedMemory = Owned<VkDeviceMemory, vkFreeMemory>;
-using OwnedBufferView = Owned<VkBufferView, vkDestroyBufferView>;
-using OwnedShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
-using OwnedSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
-using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
-using OwnedPipeline = Owned<VkPipeline, vkDestroyPipeline>;
-using OwnedDescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
-using OwnedQueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
-using OwnedCommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
-using OwnedFence = Owned<VkFence, vkDestroyFence>;
 
 /// Throw unless the result is a success. `what` completes "cannot ...". Errors: out_of_memory, device_lost, else internal.
 void check(VkResult result, const std::string& what, const std::string& where = "");
@@ -67,9 +33,9 @@ OwnedT create(VkDevice device, Create create_function, const Info& info, const s
     return OwnedT(device, handle);
 }
 
-/// A buffer with memory of its own; `mapped` where the host can see it.
+/// A buffer with its memory; `mapped` where the host can see it.
 struct Memory {
-    OwnedMemory memory;  // before the buffer, so that the buffer goes first
+    MemoryPool::Piece piece;  // before the buffer, so that the buffer goes first
     OwnedBuffer buffer;
     std::byte* mapped = nullptr;
 };
@@ -146,10 +112,12 @@ struct Device::Impl {
     void throw_new_messages();
     void set_object_name(VkObjectType type, uint64_t handle, const std::string& name);
 
-    /// The first of these sets of memory properties that the device offers gives the memory.
+    /// The first of these sets of memory properties that the device offers gives the memory. `map`: for the host to see.
     Memory make_memory(const std::string& name, uint64_t bytes, VkBufferUsageFlags usage,
-                       std::span<const VkMemoryPropertyFlags> preferences);
-    void map(Memory& made);  ///< Until it is freed.
+                       std::span<const VkMemoryPropertyFlags> preferences, bool map);
+    /// Bytes of device memory that buffers may take together with what is kept for later ones.
+    uint64_t most_held_bytes() const;
+    void release_memory(uint64_t down_to);  ///< Of each pool.
     /// kStagingBytes of mapped host memory, made at first use.
     const Memory& staging();
 
@@ -165,9 +133,11 @@ struct Device::Impl {
     Limits limits;  ///< Of the device, or lowered for tests; checks use these where there is one.
     VkPhysicalDeviceLimits vulkan_limits{};
     VkPhysicalDeviceMemoryProperties memory_properties{};
+    uint64_t max_allocation_bytes = 0;
     VkQueue queue = VK_NULL_HANDLE;
     OwnedFence fence;
     std::vector<Commands> idle_commands;
+    std::map<std::pair<uint32_t, bool>, MemoryPool> pools;  ///< By memory type and whether they are mapped.
     Memory staging_memory;
 
     size_t messages_thrown = 0;
