@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Purpose: split the large prisms of one cell into blocks of kBlockTiles tiles, 8 invocations of bin/large each.
+// Purpose: split the large prisms of one cell into blocks (shared/rect.h), kBlockTiles invocations of bin/large each.
 // Reads:   rects of the cell
 // Writes:  Blocks (triangle; block number | cell << 20), BlockCount (next free place)
 // Grid:    one invocation per triangle
@@ -16,11 +16,11 @@ layout(push_constant, scalar) uniform Push { BinParams params; };
 
 void main() {
     uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    bool inside = triangle < params.grid.triangle_count;
-    Rect rect = unpack_rect(texelFetch(rects, int(min(triangle, params.grid.triangle_count - 1u))).xy);
+    bool inside = triangle < params.triangle_count;
+    Rect rect = unpack_rect(texelFetch(rects, int(params.rect_first + min(triangle, params.triangle_count - 1u))).xy);
     bool large = inside && rect.seen != 0u && rect_is_large(rect.first, rect.last, rect.in_front);
     uint count = large ? rect_blocks(rect.first, rect.last) : 0u;
     uint place = 0u;
     if (count > 0u) place = atomicAdd(block_count, count);
-    for (uint i = 0u; i < count; ++i) blocks[place + i] = uvec2(triangle, i | (params.cell << 20u));
+    for (uint i = 0u; i < count; ++i) blocks[place + i] = uvec2(params.triangle_first + triangle, i | (params.cell << 20u));
 }

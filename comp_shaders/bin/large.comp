@@ -3,7 +3,7 @@
 // Purpose: list large prisms in those tiles of their bounds that they can touch. Count, or fill after the scan.
 // Reads:   blocks, rects (of all cells), triangles, raster_vertices
 // Writes:  Lists (count: entries per list; fill: the next free place of each list), Entries (fill)
-// Grid:    8 invocations per block, one per tile
+// Grid:    kBlockTiles invocations per block, a tile each in every round
 // Source:  math/range.h, with the tile as the box
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
@@ -45,28 +45,33 @@ void main() {
     uvec2 block = texelFetch(blocks, int(number)).xy;
     uint triangle = block.x;
     uint cell = block.y >> 20u;
-    Rect rect = unpack_rect(texelFetch(rects, int(cell * params.rect_stride + triangle)).xy);
+    Rect rect = unpack_rect(texelFetch(rects, int(cell * params.rect_stride + triangle - params.triangle_first)).xy);
     uint columns = rect.last.x - rect.first.x + 1u;
-    uint tile = (block.y & 0xfffffu) * kBlockTiles + gl_LocalInvocationID.x % kBlockTiles;
-    uint row = tile / columns;
-    uvec2 t = uvec2(rect.first.x + (tile - row * columns), rect.first.y + row);
-    bool inside = t.y <= rect.last.y;
+    uint rounds = rect_rounds(rect.first, rect.last);
 
     uint key_first = segment_of_cell(grid, cell) * grid.vertex_stride;
     CellTriangle c = fetch_cell_triangle(grid, triangle, key_first, cell_span(grid, cell));
-    vec2 centre = tile_centre(grid, t.x, t.y);
-    vec3 a0 = tile_relative(c.a0, centre.x, centre.y), a1 = tile_relative(c.a1, centre.x, centre.y), a2 = tile_relative(c.a2, centre.x, centre.y);
-    vec3 b0 = tile_relative(c.b0, centre.x, centre.y), b1 = tile_relative(c.b1, centre.x, centre.y), b2 = tile_relative(c.b2, centre.x, centre.y);
     float extent = grid_extent(grid);
-    bool positive = inside && (kByBounds || ((rect.seen & kSeenPositive) != 0u && touches_tile(a0, a1, a2, b0, b1, b2, extent)));
-    bool negative = inside && !kByBounds && (rect.seen & kSeenNegative) != 0u && touches_tile(a0, a2, a1, b0, b2, b1, extent);
+    uint tile = (block.y & 0xfffffu) * kBlockTiles * rounds + gl_LocalInvocationID.x % kBlockTiles;
+    uint end = tile + kBlockTiles * rounds;
+    do {
+        uint row = tile / columns;
+        uvec2 t = uvec2(rect.first.x + (tile - row * columns), rect.first.y + row);
+        bool inside = t.y <= rect.last.y;
+        vec2 centre = tile_centre(grid, t.x, t.y);
+        vec3 a0 = tile_relative(c.a0, centre.x, centre.y), a1 = tile_relative(c.a1, centre.x, centre.y), a2 = tile_relative(c.a2, centre.x, centre.y);
+        vec3 b0 = tile_relative(c.b0, centre.x, centre.y), b1 = tile_relative(c.b1, centre.x, centre.y), b2 = tile_relative(c.b2, centre.x, centre.y);
+        bool positive = inside && (kByBounds || ((rect.seen & kSeenPositive) != 0u && touches_tile(a0, a1, a2, b0, b1, b2, extent)));
+        bool negative = inside && !kByBounds && (rect.seen & kSeenNegative) != 0u && touches_tile(a0, a2, a1, b0, b2, b1, extent);
 
-    uint copies = (positive ? 1u : 0u) + (negative ? 1u : 0u);
-    if (copies > 0u) {
-        uint place = atomicAdd(lists[(t.y * grid.tiles_x + t.x) * grid.cell_count + cell], copies);
-        if (kFill) {
-            entries[place] = triangle | (positive ? 0u : kReversed);
-            if (copies == 2u) entries[place + 1u] = triangle | kReversed;
+        uint copies = (positive ? 1u : 0u) + (negative ? 1u : 0u);
+        if (copies > 0u) {
+            uint place = atomicAdd(lists[(t.y * grid.tiles_x + t.x - grid.tile_first) * grid.cell_count + cell], copies);
+            if (kFill) {
+                entries[place] = triangle | (positive ? 0u : kReversed);
+                if (copies == 2u) entries[place + 1u] = triangle | kReversed;
+            }
         }
-    }
+        tile += kBlockTiles;
+    } while (tile < end);
 }

@@ -17,16 +17,17 @@ layout(binding = 2, scalar) writeonly buffer Entries { uint entries[]; };
 layout(push_constant, scalar) uniform Push { BinParams params; };
 
 void main() {
-    uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    bool inside = triangle < params.grid.triangle_count;
-    Rect rect = unpack_rect(texelFetch(rects, int(min(triangle, params.grid.triangle_count - 1u))).xy);
+    uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    bool inside = i < params.triangle_count;
+    uint triangle = params.triangle_first + i;
+    Rect rect = unpack_rect(texelFetch(rects, int(params.rect_first + min(i, params.triangle_count - 1u))).xy);
     bool listed = inside && rect.seen != 0u && !rect_is_large(rect.first, rect.last, rect.in_front);
     uint copies = rect.seen == 3u && !kByBounds ? 2u : 1u;
     uint first_entry = triangle | (rect.seen == 2u && !kByBounds ? kReversed : 0u);
     uvec2 tile = rect.first;
     bool more;
     do {
-        uint list = (tile.y * params.grid.tiles_x + tile.x) * params.grid.cell_count + params.cell;
+        uint list = (tile.y * params.grid.tiles_x + tile.x - params.grid.tile_first) * params.grid.cell_count + params.cell;
         if (listed) {
             uint place = atomicAdd(lists[list], copies);
             if (kFill) {

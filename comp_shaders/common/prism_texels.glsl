@@ -38,8 +38,9 @@ void visit_texels(uint number) {
     bool inside = number < params.item_count;
     uint item = params.item_first + min(number, params.item_count - 1u);
     ViewGrid grid = params.grid;
-    uint tile = item / grid.cell_count;
-    uint cell = item - tile * grid.cell_count;
+    uint window_tile = item / grid.cell_count;
+    uint tile = grid.tile_first + window_tile;
+    uint cell = item - window_tile * grid.cell_count;
     uint tile_y = tile / grid.tiles_x;
     uint tile_x = tile - tile_y * grid.tiles_x;
     vec2 centre = tile_centre(grid, tile_x, tile_y);

@@ -103,8 +103,11 @@ ShadowTest shadow_test(uint i) {
     uint ty = uint(clamp(floor(test.at.y + 0.5 * float(params.light_height)), 0.0, float(params.light_height - 1u)));
     test.texel = uvec2(tx, ty);
     uint tile = (ty / kTileSize) * ((params.light_width + kTileSize - 1u) / kTileSize) + tx / kTileSize;
-    uint item = tile * params.light_tile_stride + cell_of(h.t, params.light_cell_count) * params.light_cell_stride;
-    test.here = inside && in_cone && item >= params.item_first && item < params.item_first + params.item_count;
+    // Of tiles that are not in the window the number wraps.
+    uint window_tile = tile - params.light_tile_first;
+    uint cell = cell_of(h.t, params.light_cell_count);
+    uint item = params.light_cell_major == 0u ? window_tile * params.light_cell_count + cell : cell * params.light_tile_count + window_tile;
+    test.here = inside && in_cone && window_tile < params.light_tile_count && item >= params.item_first && item < params.item_first + params.item_count;
     test.list = item * kTileTexels + (ty & 7u) * kTileSize + (tx & 7u);
     return test;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: vertices in world space at one key: morph, then skin.
 // Reads:   rest (3 uvec4 per vertex), influences, palette, morph_positions, morph_normals, morph_weights
-// Writes:  Positions (xyz, 1), Normals (xyz, 0; not normalised) of the key
+// Writes:  Positions (xyz, 1), Normals (xyz, 0; not normalised) of the key and the vertices
 // Grid:    one invocation per vertex
 // Source:  glTF 2.0, 3.7.2.2 and 3.7.3
 #extension GL_GOOGLE_include_directive : require
@@ -21,8 +21,9 @@ layout(binding = 7, scalar) writeonly buffer Normals { vec4 normals[]; };
 layout(push_constant, scalar) uniform Push { PoseParams params; };
 
 void main() {
-    uint v = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (v >= params.vertex_count) return;
+    uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (i >= params.vertex_count) return;
+    uint v = params.vertex_first + i;
     uvec4 head = texelFetch(rest, int(3u * v));
     uvec4 tail = texelFetch(rest, int(3u * v + 1u));
     uvec4 morph = texelFetch(rest, int(3u * v + 2u));
@@ -37,8 +38,8 @@ void main() {
     }
     vec3 position = vec3(0.0);
     vec3 normal = vec3(0.0);
-    for (uint i = 0u; i < tail.w; ++i) {
-        uvec2 influence = texelFetch(influences, int(head.w + i)).xy;
+    for (uint j = 0u; j < tail.w; ++j) {
+        uvec2 influence = texelFetch(influences, int(head.w + j)).xy;
         int row = int(3u * influence.x);
         float weight = uintBitsToFloat(influence.y);
         vec4 row_x = texelFetch(palette, row);
@@ -47,6 +48,6 @@ void main() {
         position = skin_add(position, row_x, row_y, row_z, p, weight);
         normal = skin_add_normal(normal, row_x, row_y, row_z, n, weight);
     }
-    positions[v] = vec4(position, 1.0);
-    normals[v] = vec4(normal, 0.0);
+    positions[i] = vec4(position, 1.0);
+    normals[i] = vec4(normal, 0.0);
 }

@@ -34,8 +34,9 @@ void main() {
     uint item = params.item_first + min(number, params.item_count - 1u);
     uint texel = gl_LocalInvocationID.x;
     ViewGrid grid = params.grid;
-    uint tile = item / grid.cell_count;
-    uint cell = item - tile * grid.cell_count;
+    uint window_tile = item / grid.cell_count;
+    uint tile = grid.tile_first + window_tile;
+    uint cell = item - window_tile * grid.cell_count;
     uint tile_y = tile / grid.tiles_x;
     uint tile_x = tile - tile_y * grid.tiles_x;
     uint column = tile_x * kTileSize + (texel & 7u);

@@ -21,7 +21,8 @@ void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     uint item = params.item_first + min(i / kTileTexels, params.item_count - 1u);
     uint texel = i % kTileTexels;
-    uint tile = item / params.grid.cell_count;
+    uint window_tile = item / params.grid.cell_count;
+    uint tile = params.grid.tile_first + window_tile;
     uint tile_y = tile / params.grid.tiles_x;
     uint column = (tile - tile_y * params.grid.tiles_x) * kTileSize + texel % kTileSize;
     uint row = tile_y * kTileSize + texel / kTileSize;

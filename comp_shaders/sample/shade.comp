@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: reflected light of each sample of the batch, added to the film in the order of the strata.
 // Reads:   hits, lit, triangles, raster_vertices, positions, normals, attributes, materials, texels, srgb_to_linear, lights
-// Writes:  Film (shared/film.h), Depths (per slot, when kDepths)
+// Writes:  Film of the window (shared/film.h), Depths (per slot, when kDepths)
 // Grid:    one invocation per pixel of the batch's tiles
 // Source:  Lambert; KHR_lights_punctual for the falloff of spots
 #extension GL_GOOGLE_include_directive : require
@@ -100,8 +100,10 @@ void main() {
     inside = inside && pixel.x < grid.width && pixel.y < grid.height;
 
     // The sums go on from the film's, one sample at a time, so that they do not depend on how the strata are split into batches.
-    uint plane = grid.width * grid.height;
-    uint at = inside ? pixel.y * grid.width + pixel.x : 0u;
+    uint plane = params.film_pixels;
+    uint first_row = divide(grid.tile_first, grid.tiles_x);
+    uvec2 film_first = uvec2(grid.tile_first - first_row * grid.tiles_x, first_row) * kTileSize;
+    uint at = inside ? (pixel.y - film_first.y) * params.film_width + pixel.x - film_first.x : 0u;
     vec3 color = vec3(film[kFilmRed * plane + at], film[kFilmGreen * plane + at], film[kFilmBlue * plane + at]);
     float hit_count = film[kFilmHits * plane + at];
     float depth_sum = film[kFilmDepth * plane + at];
@@ -159,7 +161,7 @@ void main() {
         film[kFilmDepth * plane + at] = depth_sum;
     }
     for (uint light = 0u; light < params.light_count; ++light) {
-        uint sums = (kFilmVisibility + light) * plane + at, squares = sums + params.light_count * plane;
+        uint sums = film_visibility(light) * plane + at, squares = sums + plane;
         float sum = film[sums];
         float sum_of_squares = kFractional ? film[squares] : 0.0;
         uint stratum = 0u;

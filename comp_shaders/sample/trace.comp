@@ -99,7 +99,7 @@ void main() {
                 test(m, entry, at[r], current[r]);
             }
         }
-        uint list = tile * grid.cell_count + cell;
+        uint list = (tile - grid.tile_first) * grid.cell_count + cell;
         uint begin = texelFetch(bin_offsets, int(list)).x + params.list_first;
         uint end = max(texelFetch(bin_offsets, int(list + 1u)).x, begin);
         uint count = walked ? min(end - begin, trace_chunk(grid, params.spp)) : 0u;

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Purpose: for each prism in one cell of time: the tiles that it may touch and the orientations in which it may be seen.
+// Purpose: for each prism in one cell of time: the tiles of the window that it may touch and the orientations in which it may be seen.
 // Reads:   triangles, raster_vertices
-// Writes:  Rects of the cell (shared/rect.h), BlockCount (blocks that bin/large will need)
+// Writes:  Rects of the cell (shared/rect.h), BlockCounts (blocks that bin/large will need, by parts of the triangles)
 // Grid:    one invocation per triangle
 // Source:  bounds of a linear motion are those of its ends, since x / w is monotone in time for w > 0
 #extension GL_GOOGLE_include_directive : require
@@ -14,14 +14,15 @@ layout(local_size_x = 64) in;
 layout(binding = 0) uniform usamplerBuffer triangles;
 layout(binding = 1) uniform samplerBuffer raster_vertices;
 layout(binding = 2, scalar) writeonly buffer Rects { uvec2 rects[]; };
-layout(binding = 3, scalar) buffer BlockCount { uint block_count; };
+layout(binding = 3, scalar) buffer BlockCounts { uint block_counts[]; };
 layout(push_constant, scalar) uniform Push { PrismParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
 
 void main() {
-    uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (triangle >= params.grid.triangle_count) return;
+    uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (i >= params.triangle_count) return;
+    uint triangle = params.triangle_first + i;
     ViewGrid grid = params.grid;
     uint segment = segment_of_cell(grid, params.cell);
     MovingTriangle m = fetch_moving_triangle(triangle, segment * grid.vertex_stride, grid.vertex_stride);
@@ -35,14 +36,14 @@ void main() {
 
     CellBox box = cell_box(c, extent, time_slack(grid.cell_count));
     vec2 half_size = 0.5 * vec2(float(grid.width), float(grid.height));
-    vec2 tiles = vec2(float(grid.tiles_x), float(grid.tiles_y));
-    vec2 first = in_front ? floor((box.lower + half_size) * (1.0 / float(kTileSize))) : vec2(0.0);
-    vec2 last = in_front ? floor((box.upper + half_size) * (1.0 / float(kTileSize))) : tiles;
-    bool visible = seen != 0u && highest_w > 0.0 && first.x < tiles.x && first.y < tiles.y && last.x >= 0.0 && last.y >= 0.0;
-    uvec2 f = uvec2(clamp(first, vec2(0.0), tiles - 1.0));
-    uvec2 l = uvec2(clamp(last, vec2(0.0), tiles - 1.0));
+    vec2 window_first = vec2(params.window_first), window_last = vec2(params.window_last);
+    vec2 first = in_front ? floor((box.lower + half_size) * (1.0 / float(kTileSize))) : window_first;
+    vec2 last = in_front ? floor((box.upper + half_size) * (1.0 / float(kTileSize))) : window_last;
+    bool visible = seen != 0u && highest_w > 0.0 && first.x <= window_last.x && first.y <= window_last.y && last.x >= window_first.x && last.y >= window_first.y;
+    uvec2 f = uvec2(clamp(first, window_first, window_last));
+    uvec2 l = uvec2(clamp(last, window_first, window_last));
 
-    rects[triangle] = pack_rect(f, l, visible ? seen : 0u, in_front);
+    rects[i] = pack_rect(f, l, visible ? seen : 0u, in_front);
     uint blocks = visible && rect_is_large(f, l, in_front) ? rect_blocks(f, l) : 0u;
-    if (blocks > 0u) atomicAdd(block_count, blocks);
+    if (blocks > 0u) atomicAdd(block_counts[params.part_first + (i >> params.part_log2)], blocks);
 }

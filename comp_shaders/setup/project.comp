@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: vertices in a view's raster space (math/cover.h) at one key.
 // Reads:   positions (world space)
-// Writes:  RasterVertices of the key
+// Writes:  RasterVertices of the key and the vertices
 // Grid:    one invocation per vertex
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"

@@ -8,8 +8,9 @@ GN_BEGIN
 // Texels (pixels) along a tile's side; the lanes of a tile's row and the rows that one invocation holds in registers.
 const uint kTileSize = 8u;
 const uint kTileTexels = 64u;
-// Items (a tile in a cell of time) whose ranges are counted together; bands of the S-buffer consist of whole blocks.
-const uint kCountBlock = 128u;
+// Items (a tile in a cell of time) whose ranges are counted together, no fewer than a workgroup handles; bands of the S-buffer
+// consist of whole blocks.
+const uint kCountBlock = 8u;
 // Depth where nothing is.
 const float kFarthest = 3.4e38f;
 // No triangle.
@@ -18,8 +19,10 @@ const uint kNone = 0xffffffffu;
 const uint kReversed = 0x80000000u;
 // Prisms whose bounds in a cell hold at most this many tiles are binned without a closer look.
 const uint kSmallTiles = 4u;
-// Tiles that one block of 8 invocations looks at when large prisms are binned.
+// Large prisms are binned by blocks of so many invocations, a tile each in every round; a prism has at most kMostBlocks of
+// them.
 const uint kBlockTiles = 8u;
+const uint kMostBlocks = 256u;
 // Most list entries that one dispatch walks: lavapipe ends every loop after 65,535 iterations of an invocation, all its loops
 // together, without a word, and raster/conservative goes round up to 10 times for an entry: for itself, and for each of up to 8
 // rows; and once more for each crew of entries (common/crew.glsl).
@@ -34,7 +37,7 @@ struct ViewGrid {
     uint width;  // Texels.
     uint height;
     uint tiles_x;
-    uint tiles_y;
+    uint tile_first;  // Of the window, a run of tiles whose lists are in memory; items are numbered from there.
     uint cell_count;  // Equal parts of the shutter; a multiple of segment_count.
     uint segment_count;
     uint triangle_count;
@@ -48,6 +51,7 @@ GN_FN uint trace_chunk(ViewGrid grid, uint spp) {
 }
 
 struct PoseParams {
+    uint vertex_first;  // Of the dispatch; what it writes is bound from there on.
     uint vertex_count;
 };
 
@@ -58,18 +62,27 @@ struct ProjectParams {
     vec4 row_w;
     vec3 origin;
     uint vertex_count;
-    uint vertex_first;  // Of the key, in the positions.
+    uint vertex_first;  // In the positions; what is written is bound from there on.
 };
 
 struct PrismParams {
     ViewGrid grid;
     uint cell;
+    uint triangle_first;  // Triangles [triangle_first, triangle_first + triangle_count), whose rectangles are in memory.
+    uint triangle_count;
+    uint part_log2;      // Their blocks are counted in parts of 2^part_log2 triangles,
+    uint part_first;     // the first of this cell's being this one.
+    uvec2 window_first;  // The window's first and last column and row of tiles.
+    uvec2 window_last;
 };
 
 struct BinParams {
     ViewGrid grid;
-    uint cell;         // bin/small, bin/blocks.
-    uint rect_stride;  // bin/large: rects from one cell to the next.
+    uint cell;            // bin/small, bin/blocks.
+    uint triangle_first;  // Triangles [triangle_first, triangle_first + triangle_count). bin/large: the first in memory.
+    uint triangle_count;
+    uint rect_first;   // Where the first triangle's rectangle is among those that are bound.
+    uint rect_stride;  // bin/large: rectangles from one cell to the next.
     uint block_count;  // bin/large.
 };
 
@@ -81,7 +94,7 @@ struct ScanParams {
 
 struct RasterParams {
     ViewGrid grid;
-    uint item_count;  // Items (a tile in a cell: tile * cell_count + cell) of this dispatch.
+    uint item_count;  // Items (a tile of the window in a cell: tile * cell_count + cell) of this dispatch.
     uint item_first;
     uint list_first;      // Walk entries [list_first, list_first + kListChunk) of each list.
     uint range_first;     // The number of the first range in the bound memory.
@@ -171,15 +184,16 @@ struct ShadowParams {
     uint light_width;
     uint light_height;
     uint light_cell_count;
-    uint light_tile_stride;  // Item of tile and cell: tile * light_tile_stride + cell * light_cell_stride.
-    uint light_cell_stride;
+    uint light_tile_first;  // Of the window of the light's view.
+    uint light_tile_count;
+    uint light_cell_major;  // 0: item of tile and cell is tile * light_cell_count + cell; else cell * light_tile_count + tile.
     float light_cell_length;  // Of the shutter.
     float scale_x;            // Raster units per metre (orthographic), or per unit slope (perspective).
     float scale_y;
     float cone_tan2;   // Squared tangent of a spot's outer half angle.
     float tolerance;   // The least metres along a hit's normal within which nothing occludes.
     float depth_near;  // Occluders are deeper than this.
-    uint item_first;   // Items of the light's view whose ranges are in memory.
+    uint item_first;   // Items of the window whose ranges are in memory.
     uint item_count;
     uint range_first;  // The number of the first range in memory.
     uint part;         // How many times kListChunk ranges of each list were walked before.
@@ -196,7 +210,15 @@ struct ShadeParams {
     uint seed;
     uint light_count;
     uint key_count;
+    uint film_width;  // Pixels of the window, rows from the top: its film.
+    uint film_pixels;
     uint lit_stride;  // Slots from one light's visibility to the next; of fractional visibility only.
+};
+
+struct ResolveParams {
+    uint pixel_count;  // Of the film.
+    uint spp;
+    uint light_count;
 };
 
 GN_END

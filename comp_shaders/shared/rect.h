@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tiles that a prism may touch in one cell of time, in two words: x: first x (12 bits), last x (12), orientations (2), in
-// front of the eye (1); y: first y, last y.
+// The tiles of the window that a prism may touch in one cell of time, in two words: x: first x (12 bits), last x (12),
+// orientations (2), in front of the eye (1); y: first y, last y.
 #ifndef GNOMON_SHARED_RECT_H
 #define GNOMON_SHARED_RECT_H
 #include "params.h"
@@ -31,8 +31,17 @@ GN_FN uint rect_tiles(uvec2 first, uvec2 last) { return (last.x - first.x + 1u) 
 // Large prisms are tested against each tile (bin/large), small ones are not (bin/small).
 GN_FN bool rect_is_large(uvec2 first, uvec2 last, bool in_front) { return !in_front || rect_tiles(first, last) > kSmallTiles; }
 
-// Blocks that bin/large spends on the prism.
-GN_FN uint rect_blocks(uvec2 first, uvec2 last) { return (rect_tiles(first, last) + kBlockTiles - 1u) / kBlockTiles; }
+// Tiles that each invocation of bin/large looks at, one after the other.
+GN_FN uint rect_rounds(uvec2 first, uvec2 last) {
+    const uint at_once = kMostBlocks * kBlockTiles;
+    return (rect_tiles(first, last) + at_once - 1u) / at_once;
+}
+
+// Blocks that bin/large spends on the prism, at most kMostBlocks.
+GN_FN uint rect_blocks(uvec2 first, uvec2 last) {
+    uint tiles = kBlockTiles * rect_rounds(first, last);
+    return (rect_tiles(first, last) + tiles - 1u) / tiles;
+}
 
 GN_END
 #endif

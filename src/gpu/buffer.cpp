@@ -28,10 +28,10 @@ std::optional<uint32_t> find_memory_type(const VkPhysicalDeviceMemoryProperties&
     return std::nullopt;
 }
 
-Error memory_error(const Device::Impl& device, const std::string& name, uint64_t bytes, const std::string& why) {
+Error memory_error(const Device::Impl& device, const std::string& name, uint64_t bytes, const std::string& why,
+                   const std::string& hint) {
     return Error(ErrorKind::out_of_memory, "no memory for buffer '" + name + "' of " + format_bytes(bytes) + ": " + why,
-                 format_bytes(device.live_bytes) + " in use" + device.describe_live(),
-                 "change --memory-budget or lower --shadow-res");
+                 format_bytes(device.live_bytes) + " in use" + device.describe_live(), hint);
 }
 
 const std::shared_ptr<Buffer::Impl>& checked(Device& device, const Buffer& buffer, uint64_t offset, uint64_t bytes,
@@ -103,7 +103,7 @@ Memory Device::Impl::make_memory(const std::string& name, uint64_t bytes, VkBuff
         release_memory(0);
         result = take();
     }
-    if (is_out()) throw memory_error(*this, name, bytes, "the driver has no more");
+    if (is_out()) throw memory_error(*this, name, bytes, "the driver has no more", "use a lower --memory-budget");
     check(result, "allocate memory", "buffer " + name);
     check(vkBindBufferMemory(device.get(), made.buffer.get(), made.piece.memory(), made.piece.offset()), "bind memory",
           "buffer " + name);
@@ -149,10 +149,12 @@ Buffer Device::allocate(const std::string& name, uint64_t bytes) {
     bytes = bytes == 0 ? kGranularity : bytes;
     if (bytes > impl_->limits.max_buffer_bytes - kGranularity) {
         throw memory_error(*impl_, name, bytes,
-                           "a buffer of this device has at most " + format_bytes(impl_->limits.max_buffer_bytes));
+                           "a buffer of this device has at most " + format_bytes(impl_->limits.max_buffer_bytes),
+                           "use a lower --memory-budget");
     }
     if (impl_->budget > 0 && (impl_->live_bytes > impl_->budget || bytes > impl_->budget - impl_->live_bytes)) {
-        throw memory_error(*impl_, name, bytes, "it would pass the budget of " + format_bytes(impl_->budget));
+        throw memory_error(*impl_, name, bytes, "it would pass the budget of " + format_bytes(impl_->budget),
+                           "allow a larger --memory-budget");
     }
     Buffer buffer;
     buffer.impl_ = std::make_shared<Buffer::Impl>();

@@ -133,6 +133,7 @@ public:
     /// while all of it is within the budget, or without one within half the largest heap, and given back where an allocation
     /// would fail without it. Where upload and download have to stage, they use 32 MiB of host memory besides.
     void set_budget(uint64_t bytes);
+    uint64_t budget_left() const;  ///< Of the budget; all that there is where there is none.
     uint64_t live_bytes() const;
     uint64_t peak_bytes() const;
     std::map<std::string, uint64_t> largest_bytes() const;  ///< By buffer name.

@@ -79,7 +79,7 @@ DepthMap::DepthMap(const LightContext& light, const Bins& bins, DepthMapKind kin
       bins_(bins),
       kind_(kind),
       sampling_(map_sampling(light, kind)),
-      tile_count_(bins.grid.tiles_x * bins.grid.tiles_y),
+      tile_count_(bins.window.tile_count),
       tracer_(light.device, light.programs, light.geometry, light.view, bins, "map/trace", sampling_,
               uint64_t(tile_count_) * shared::kTileTexels) {
     if (uint64_t(sampling_.spp) * tile_count_ > 0xffffffffull) {
@@ -119,7 +119,8 @@ void DepthMap::fill(const Band& band) {
     gpu::Recorder recorder(light_.device);
     const uint32_t first = band.item_first / tile_count_, count = band.item_count / tile_count_;
     for (uint32_t s = 0; s < count; ++s) {
-        record_depths(recorder, light_, bins_, tracer_, sampling_, sample_floats(), {0, tile_count_, first + s, 1}, samples_,
+        record_depths(recorder, light_, bins_, tracer_, sampling_, sample_floats(),
+                      {bins_.window.tile_first, tile_count_, first + s, 1}, samples_,
                       uint64_t(s) * tile_count_ * shared::kTileTexels);
     }
     recorder.submit();

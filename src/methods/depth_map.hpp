@@ -58,7 +58,7 @@ class DepthMap final : public ShadowMap {
 public:
     DepthMap(const LightContext& light, const Bins& bins, DepthMapKind kind);
 
-    ItemOrder order() const override { return {sampling_.spp, 1, tile_count_}; }
+    ItemOrder order() const override { return {sampling_.spp, true}; }
     uint32_t item_count() const override { return sampling_.spp * tile_count_; }
     std::map<std::string, uint64_t> counts() const override;
     std::map<std::string, std::string> effective() const override { return map_effective(light_, sampling_, map_bias(light_)); }

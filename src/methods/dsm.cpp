@@ -46,7 +46,7 @@ private:
         gpu::Buffer clusters;
         uint32_t count = 0;
     };
-    Piece make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch);
+    Piece make_clusters(Tracer& tracer, const gpu::Buffer& samples, uint32_t tile_first, uint32_t tile_count);
 
     const LightContext& light_;
     const Bins& bins_;
@@ -61,10 +61,15 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
     : light_(light),
       bins_(bins),
       sampling_(dsm_sampling(light)),
-      tile_count_(bins.grid.tiles_x * bins.grid.tiles_y),
+      tile_count_(bins.window.tile_count),
       unbound_(light.device, 3) {
     gpu::Device& device = light.device;
     const uint64_t texels = uint64_t(tile_count_) * shared::kTileTexels;
+    if ((texels + 1) * 4 > std::min(device.limits().max_storage_range, device.limits().max_texels * 4)) {
+        throw Error(ErrorKind::out_of_memory,
+                    std::to_string(texels) + " texels of a light's map are more than the device can bind", "shadow map",
+                    "use a smaller --shadow-res");
+    }
     offsets_ = device.allocate("map_offsets", (texels + 1) * 4);
     const uint64_t tile_bytes = uint64_t(sampling_.spp) * shared::kTileTexels * 4;
     const auto step = static_cast<uint32_t>(std::clamp<uint64_t>(kBatchBytes / tile_bytes, 1, tile_count_));
@@ -74,7 +79,7 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
                       uint64_t(step) * sampling_.spp * shared::kTileTexels);
         const gpu::Buffer samples = device.allocate("map_samples", step * tile_bytes);
         for (uint32_t tile = 0; tile < tile_count_; tile += step)
-            pieces.push_back(make_clusters(tracer, samples, {tile, std::min(step, tile_count_ - tile), 0, sampling_.spp}));
+            pieces.push_back(make_clusters(tracer, samples, tile, std::min(step, tile_count_ - tile)));
     }
     if (cluster_count_ > std::min<uint64_t>(device.limits().max_texels, 0xffffffffull)) {
         throw Error(ErrorKind::out_of_memory, std::to_string(cluster_count_) + " clusters in a light's map", "shadow map",
@@ -92,16 +97,18 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
     recorder.submit();
 }
 
-// The clusters of the batch's texels, and their texels' offsets.
-DeepShadowMap::Piece DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samples, const Batch& batch) {
+// The clusters of some of the window's tiles, and their texels' offsets.
+DeepShadowMap::Piece DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buffer& samples, uint32_t tile_first,
+                                                  uint32_t tile_count) {
     gpu::Device& device = light_.device;
-    const uint32_t texels = batch.tile_count * shared::kTileTexels;
+    const Batch batch{bins_.window.tile_first + tile_first, tile_count, 0, sampling_.spp};
+    const uint32_t texels = tile_count * shared::kTileTexels;
     const AxisLength extent = dsm_extent(light_);
     const gpu::Buffer counts = device.allocate("cluster_counts", scan_bytes(texels));
     const gpu::Buffer sums = device.allocate("cluster_sums", scan_bytes(texels));
     const shared::ClusterParams params{
-        batch.tile_count, sampling_.spp,   batch.tile_first * shared::kTileTexels, static_cast<uint32_t>(cluster_count_),
-        extent.metres,    extent.per_metre};
+        tile_count,    sampling_.spp,   tile_first * shared::kTileTexels, static_cast<uint32_t>(cluster_count_),
+        extent.metres, extent.per_metre};
     const auto record = [&](gpu::Recorder& recorder, bool fill, std::initializer_list<gpu::Binding> own) {
         std::vector<gpu::Binding> all = own;
         all.push_back({"map_samples", &samples, Texel::r32_float});

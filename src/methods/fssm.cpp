@@ -89,6 +89,7 @@ Fssm::Fssm(const LightContext& light, const Bins& bins)
       tuple_count_(tuples_of(sizes_.grid, level_count_)),
       tiles_x_(static_cast<uint32_t>(groups_of(bins.grid.width, sizes_.tile))),
       tiles_y_(static_cast<uint32_t>(groups_of(bins.grid.height, sizes_.tile))),
+      rows_(bins.window.tile_count / bins.grid.tiles_x),
       views_move_(!all_same(light.view) || !all_same(*light.camera)),
       views_(gpu::upload_new(light.device, "fssm.views", view_keys(*light.camera, light.view))) {}
 
@@ -114,7 +115,7 @@ uint64_t Fssm::row_bytes() const { return tiles_x_ * layer_count_ * layer_bytes(
 uint64_t Fssm::window_texels(uint32_t row_count) const {
     const shared::ViewGrid& grid = bins_.grid;
     const uint64_t high = uint64_t(row_count) * sizes_.tile + sizes_.window - sizes_.tile;
-    const uint64_t rows = std::min<uint64_t>(grid.tiles_y, groups_of(high, shared::kTileSize) + 1);
+    const uint64_t rows = std::min<uint64_t>(rows_, groups_of(high, shared::kTileSize) + 1);
     return rows * grid.tiles_x * shared::kTileTexels;
 }
 
@@ -152,7 +153,7 @@ std::vector<Band> Fssm::bands(uint64_t bytes) const {
         const uint64_t texels = std::max(tuples, samples);
         return needed(count) <= bytes && texels <= limits.max_texels && texels * kTupleBytes <= limits.max_buffer_bytes;
     };
-    uint32_t most = grid.tiles_y;
+    uint32_t most = rows_;
     while (most > 0 && !fits(most)) --most;
     if (most == 0) {
         throw Error(ErrorKind::out_of_memory,
@@ -160,8 +161,8 @@ std::vector<Band> Fssm::bands(uint64_t bytes) const {
                     "shadow map", "allow a larger --memory-budget, use a smaller --shadow-res or fewer --layers");
     }
     std::vector<Band> result;
-    for (uint32_t first = 0; first < grid.tiles_y; first += most) {
-        const uint32_t count = std::min(most, grid.tiles_y - first);
+    for (uint32_t first = 0; first < rows_; first += most) {
+        const uint32_t count = std::min(most, rows_ - first);
         const Rows rows = rows_of(first, count);
         result.push_back({first * grid.tiles_x, count * grid.tiles_x, uint64_t(rows.first) * tiles_x_,
                           uint64_t(rows.count) * tiles_x_, 0.0, 1.0});
@@ -201,7 +202,7 @@ void Fssm::fill_rows(gpu::Recorder& recorder, Tracer& tracer, const Rows& rows, 
     const uint32_t margin = (sizes_.window - sizes_.tile) / 2;
     const uint32_t top = rows.first * sizes_.tile, bottom = (rows.first + rows.count) * sizes_.tile + margin;
     const uint32_t first = (top - std::min(margin, top)) / shared::kTileSize;
-    const uint32_t last = std::min(static_cast<uint32_t>(groups_of(bottom, shared::kTileSize)), grid.tiles_y);
+    const uint32_t last = std::min(static_cast<uint32_t>(groups_of(bottom, shared::kTileSize)), rows_);
     const uint32_t tile_first = first * grid.tiles_x, tile_count = (last - first) * grid.tiles_x;
     const uint32_t stride = tile_count * shared::kTileTexels;
     for (uint32_t s = 0; s < sampling_.spp; ++s) {

@@ -17,7 +17,7 @@ public:
     Fssm(const LightContext& light, const Bins& bins);
 
     ItemOrder order() const override { return {}; }
-    uint32_t item_count() const override { return bins_.grid.tiles_x * bins_.grid.tiles_y; }
+    uint32_t item_count() const override { return bins_.window.tile_count; }
     std::map<std::string, uint64_t> counts() const override;
     std::map<std::string, std::string> effective() const override;
     /// Rows of tiles; with each the rows beside it, to which lookups near its border may go. What a band takes includes its
@@ -63,6 +63,7 @@ private:
     Sizes sizes_;
     uint32_t layer_count_, level_count_, tuple_count_;
     uint32_t tiles_x_, tiles_y_;  ///< The method's tiles.
+    uint32_t rows_;               ///< Of tiles of 8 x 8 texels.
     bool views_move_ = false;
     uint32_t base_ = 0;
     std::vector<uint32_t> level_first_;  ///< Of the band in memory, in tuples.

@@ -107,6 +107,7 @@ const std::vector<Method>& methods() {
          .source = "Andersson et al. 2015, 4 and 5",
          .shadow_stage = "methods/fssm/shadow",
          .fractional = true,
+         .windowed = false,  // A tile's layers come from a window of texels around it, and lookups go to its neighbours.
          .parameters = fssm_parameters(),
          .light_cells =
              [](const LightContext& light) {

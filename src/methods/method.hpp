@@ -57,11 +57,12 @@ struct Method {
     std::string layout = "array";  ///< Of the S-buffer, where the settings leave it open.
     bool exit_depth = false;       ///< A range has a depth at its exit.
     bool fractional = false;       ///< Visibility is a share of the light, not a bit.
+    bool windowed = true;          ///< Its map can be made for a part of the light's view alone.
     std::vector<Parameter> parameters = {};
 
     /// In how many cells of time the light's prisms are listed.
     std::function<uint32_t(const LightContext&)> light_cells;
-    /// The context and the bins outlive the map.
+    /// Of the window that the bins hold. The context and the bins outlive the map.
     std::function<std::unique_ptr<ShadowMap>(const LightContext&, const Bins&)> make_map;
 
     bool has_s_buffer() const { return !rasters.empty(); }

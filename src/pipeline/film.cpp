@@ -2,47 +2,26 @@
 #include "pipeline/film.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "shared/film.h"
 
 namespace gnomon {
-namespace {
 
-Channel channel(const std::string& name, const float* plane, size_t pixels) {
-    return {name, std::vector<float>(plane, plane + pixels)};
+void make_channels(Frame& frame) {
+    std::vector<std::string> names = {"R", "G", "B", "A", "Z"};
+    for (uint32_t light = 0; light < frame.light_count; ++light) {
+        names.push_back("visibility." + std::to_string(light));
+        names.push_back("visibility_var." + std::to_string(light));
+    }
+    const size_t pixels = size_t(frame.width) * frame.height;
+    for (const std::string& name : names) frame.channels.push_back({name, std::vector<float>(pixels)});
 }
 
-}  // namespace
-
-void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp, bool fractional) {
-    size_t pixels = size_t(frame.width) * frame.height;
-    const char* names[] = {"R", "G", "B", "A", "Z"};
-    for (uint32_t plane = 0; plane < shared::kFilmVisibility; ++plane) {
-        frame.channels.push_back(channel(names[plane], film.data() + plane * pixels, pixels));
-    }
-    const float* hits = film.data() + shared::kFilmHits * pixels;
-    for (size_t i = 0; i < pixels; ++i) {
-        for (uint32_t plane : {shared::kFilmRed, shared::kFilmGreen, shared::kFilmBlue, shared::kFilmHits}) {
-            frame.channels[plane].values[i] /= static_cast<float>(spp);
+void store(Frame& frame, const std::vector<float>& film, const WindowRect& rect) {
+    auto from = film.begin();
+    for (Channel& channel : frame.channels) {
+        for (uint32_t row = 0; row < rect.size_px.y; ++row, from += rect.size_px.x) {
+            const size_t place = size_t(rect.first_px.y + row) * frame.width + rect.first_px.x;
+            std::copy_n(from, rect.size_px.x, channel.values.begin() + static_cast<std::ptrdiff_t>(place));
         }
-        frame.channels[shared::kFilmDepth].values[i] =
-            hits[i] > 0.0f ? frame.channels[shared::kFilmDepth].values[i] / hits[i] : 0.0f;
-    }
-    for (uint32_t light = 0; light < frame.light_count; ++light) {
-        Channel mean =
-            channel("visibility." + std::to_string(light), film.data() + (shared::kFilmVisibility + light) * pixels, pixels);
-        const size_t squares = (shared::kFilmVisibility + frame.light_count + light) * pixels;
-        Channel error{"visibility_var." + std::to_string(light), std::vector<float>(pixels)};
-        for (size_t i = 0; i < pixels; ++i) {
-            double n = hits[i];
-            double p = n > 0.0 ? mean.values[i] / n : 0.0;
-            mean.values[i] = static_cast<float>(p);
-            double spread = n > 0.0 ? (fractional ? film[squares + i] / n : p) - p * p : 0.0;
-            error.values[i] = static_cast<float>(std::sqrt(std::max(0.0, spread) / std::max(n - 1.0, 1.0)));
-        }
-        frame.channels.push_back(std::move(mean));
-        frame.channels.push_back(std::move(error));
     }
 }
 

@@ -9,9 +9,11 @@
 
 namespace gnomon {
 
-/// Append the channels: means over samples, of depth and visibility over hits. film: planes as in shared/film.h. fractional:
-/// visibility is a share of the light, whose squares the film holds.
-void resolve(Frame& frame, const std::vector<float>& film, uint32_t spp, bool fractional);
+/// The frame's channels, all zero.
+void make_channels(Frame& frame);
+
+/// Copy the resolved film of a window to the frame. film: plane-major, in the order of the channels.
+void store(Frame& frame, const std::vector<float>& film, const WindowRect& rect);
 
 /// Write the samples of a batch that was just shaded into those of the frame.
 void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp,

@@ -9,6 +9,7 @@
 #include "layouts/compile_layout.hpp"
 #include "methods/method.hpp"
 #include "pipeline/film.hpp"
+#include "pipeline/lights.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "pipeline/view.hpp"
 #include "shared/film.h"
@@ -71,49 +72,35 @@ std::vector<glm::vec4> light_records(const Scene& scene, const std::vector<Pose>
     return records;
 }
 
-// Seconds of each stage that went into the lights' maps.
-class MapClock {
-public:
-    explicit MapClock(const gpu::Device& device) : device_(device) {}
-
-    template <class Work>
-    void time(Work work) {
-        for (const gpu::StageTime& t : device_.stage_times()) seconds_[t.name] -= t.seconds;
-        work();
-        for (const gpu::StageTime& t : device_.stage_times()) seconds_[t.name] += t.seconds;
-    }
-
-    double seconds(const std::string& stage) const {
-        const auto found = seconds_.find(stage);
-        return found == seconds_.end() ? 0.0 : found->second;
-    }
-
-private:
-    const gpu::Device& device_;
-    std::map<std::string, double> seconds_;
-};
-
-// Against each band of the light's map that the batch's samples fall into.
-void test_shadows(Sampler& sampler, LightSide& side, const Batch& batch, uint32_t spp, float tolerance, MapClock& clock) {
-    const double open = static_cast<double>(batch.stratum_first) / spp;
-    const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / spp;
-    for (size_t i = 0; i < side.bands.size(); ++i) {
-        const Band& band = side.bands[i];
-        if (band.t_close <= open || band.t_open >= close) continue;
-        if (side.filled != i) clock.time([&] { side.map->fill(band); });
-        side.filled = i;
-        sampler.test_shadows(side, band, tolerance);
-    }
-}
-
-FrameStats statistics(const gpu::Device& device, const MapClock& clock) {
+FrameStats statistics(const gpu::Device& device, const Lights& lights) {
     FrameStats stats;
     for (const gpu::StageTime& t : device.stage_times())
-        stats.stages.push_back({t.name, t.seconds, t.dispatches, clock.seconds(t.name)});
+        stats.stages.push_back({t.name, t.seconds, t.dispatches, lights.map_seconds(t.name)});
     stats.buffer_bytes = device.largest_bytes();
     stats.peak_bytes = device.peak_bytes();
     stats.device = device.description().name;
     return stats;
+}
+
+// The prisms of windows[w] of the camera's view, in at most `bytes`. Where they do not fit, the lights go, then the window is
+// halved.
+void list_window(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view,
+                 std::vector<Window>& windows, size_t w, uint64_t budget, uint64_t bytes, Lights& lights, Bins& bins) {
+    for (;;) {
+        bins.offsets = gpu::Buffer();
+        bins.entries = gpu::Buffer();
+        device.set_budget(std::min(budget, device.live_bytes() + bytes));
+        try {
+            list_prisms(device, programs, geometry, view, windows[w], Listing::swept, bins);
+            device.set_budget(budget);
+            return;
+        } catch (const Error& error) {
+            device.set_budget(budget);
+            if (error.kind() != ErrorKind::out_of_memory) throw;
+            const bool short_of_budget = device.budget_left() < bytes;
+            if (!(short_of_budget && lights.release()) && !halve(windows, w, view)) throw;
+        }
+    }
 }
 
 }  // namespace
@@ -143,6 +130,7 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     }
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;
+    check_scene(device, scene, poses, budget);
     device.set_budget(budget);
 
     Frame frame;
@@ -151,49 +139,18 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
     frame.effective = {{"method", method.name}};
     if (method.has_s_buffer()) frame.effective.insert({{"raster", raster}, {"layout", layout.name}});
+    make_channels(frame);
 
     // The scene, posed.
     Bounds bounds = bounds_of(scene, poses);
     Geometry geometry = pose_geometry(device, programs, scene, poses);
     gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(scene, poses));
 
-    // The camera's prisms.
-    View view = camera_view(scene.cameras[settings.camera], poses, settings.camera, settings.width, settings.height);
-    Bins bins =
-        bin_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, is_still(poses)));
-
-    // Each light's prisms, and what its shadow tests read.
-    std::vector<LightSide> sides;
-    for (uint32_t i = 0; i < frame.light_count; ++i) {
-        if (scene.lights[i].kind == LightKind::point) continue;
-        LightSide side;
-        side.light_ix = i;
-        side.view = light_view(scene.lights[i], poses, i, bounds, settings.shadow_res);
-        sides.push_back(std::move(side));
-    }
-    MapClock map_clock(device);
-    std::vector<LightContext> contexts;
-    for (const LightSide& side : sides) {
-        contexts.push_back({device, programs, geometry, settings, method, side.view, side.light_ix, is_still(poses),
-                            budget / sides.size(), layout, raster, &view});
-    }
-    for (size_t i = 0; i < sides.size(); ++i) {
-        LightSide& side = sides[i];
-        map_clock.time([&] {
-            side.bins = bin_prisms(device, programs, geometry, side.view, method.light_cells(contexts[i]),
-                                   raster == "prism" ? Listing::bounds : Listing::swept);
-            side.map = method.make_map(contexts[i], side.bins);
-        });
-        const std::string light = std::to_string(side.light_ix);
-        frame.stats.counts["bin_entries." + light] = side.bins.entry_count;
-        for (const auto& [name, count] : side.map->counts()) frame.stats.counts[name + "." + light] = count;
-        frame.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
-        for (const auto& [name, value] : side.map->effective()) frame.effective[name] = value;
-    }
-
-    // The samples, a batch at a time. An S-buffer that fits is filled once, else in bands for every batch.
-    frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
-    uint64_t most_slots = batch_slots(device, bins.grid, settings.spp, budget, method.fractional ? 4 * frame.light_count : 0);
+    // The camera's vertices and the sampler; then window by window its prisms and samples.
+    const View view = camera_view(scene.cameras[settings.camera], poses, settings.camera, settings.width, settings.height);
+    const bool still = is_still(poses);
+    Bins bins = project_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, still));
+    const uint64_t most_slots = batch_slots(device, view, settings.spp, method.fractional ? frame.light_count : 0);
     Sampler sampler(device, programs, geometry, view, bins,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
@@ -203,35 +160,38 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
                      .fractional = method.fractional,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
-    uint64_t left = budget - std::min(budget, device.live_bytes());
-    uint32_t most_strata = settings.spp;
-    for (LightSide& side : sides) {
-        side.bands = side.map->bands(left / sides.size());
-        // Where a map is cut in time, so are the samples, so that it is filled once.
-        const double longest = side.bands[0].t_close - side.bands[0].t_open;
-        most_strata = std::min(most_strata, static_cast<uint32_t>(std::max(1.0, std::floor(longest * settings.spp))));
+    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, still}, scene, poses, bounds);
+    std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count)));
+    const uint64_t camera_bytes = device.budget_left() / 2;
+    uint64_t camera_entries = 0;
+    bool stopped = false;
+    for (size_t w = 0; w < windows.size() && !stopped; ++w) {
+        list_window(device, programs, geometry, view, windows, w, budget, camera_bytes, shadows, bins);
+        camera_entries += bins.entry_count;
+        sampler.begin_window();
+        if (w == 0) shadows.prepare();
+        const std::vector<Batch> batches = split_batches(windows[w], settings.spp, most_slots, shadows.most_strata());
+        for (size_t b = 0; b < batches.size() && !stopped; ++b) {
+            const double window_share = static_cast<double>(b) / static_cast<double>(batches.size());
+            const double done = windows[w].tile_first + window_share * windows[w].tile_count;
+            stopped = progress && !progress(done / (double(tiles_across(view)) * tiles_down(view)));
+            if (stopped) break;
+            sampler.trace(batches[b]);
+            shadows.test_shadows(sampler, batches[b], least_tolerance(bounds));
+            sampler.shade(lights, !lights_still(poses));
+            if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);
+        }
+        store(frame, sampler.resolve(), rect_of(view, windows[w]));
     }
-    std::vector<Batch> batches = split_batches(bins.grid, settings.spp, most_slots, most_strata);
-    for (size_t b = 0; b < batches.size(); ++b) {
-        if (progress && !progress(static_cast<double>(b) / static_cast<double>(batches.size()))) break;
-        sampler.trace(batches[b]);
-        for (LightSide& side : sides) test_shadows(sampler, side, batches[b], settings.spp, least_tolerance(bounds), map_clock);
-        sampler.shade(lights, !lights_still(poses));
-        if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);
-    }
-    resolve(frame, sampler.film(), settings.spp, method.fractional);
     if (progress) progress(1.0);
-    if (settings.keep_texel_ranges) {
-        frame.texel_ranges.resize(frame.light_count);
-        for (LightSide& side : sides) frame.texel_ranges[side.light_ix] = side.map->texel_ranges(side.bands);
-    }
+    if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges(frame.light_count);
 
-    std::map<std::string, uint64_t> counts = std::move(frame.stats.counts);
-    frame.stats = statistics(device, map_clock);
-    frame.stats.counts = std::move(counts);
+    frame.stats = statistics(device, shadows);
+    shadows.report(frame);
+    frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     frame.stats.counts["triangles"] = geometry.triangle_count;
     frame.stats.counts["prisms"] = uint64_t(geometry.triangle_count) * geometry.segment_count;
-    frame.stats.counts["bin_entries.camera"] = bins.entry_count;
+    frame.stats.counts["bin_entries.camera"] = camera_entries;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
     frame.stats.counts["hits"] = sampler.hit_count();
     frame.stats.counts["shadow_tests"] = sampler.shadow_counts().cast;

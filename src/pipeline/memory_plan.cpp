@@ -17,9 +17,77 @@ constexpr uint64_t kBatchSlots = 4u << 20;
 constexpr uint32_t kMostStrata = 1024;
 constexpr uint64_t kSlotBytes = 16;
 
+// A window of a tile, a batch of a few samples, and what is binned with them.
+constexpr uint64_t kLeastWorkBytes = 4u << 20;
+
 bool same(const Rigid& a, const Rigid& b) { return a.translation == b.translation && a.rotation == b.rotation; }
 
+// What has to be in memory whole, and be read through one binding.
+struct SceneBuffer {
+    const char* what;
+    uint64_t elements = 0;
+    uint64_t bytes = 0;  // Of an element.
+    const char* hint;
+};
+
+constexpr const char* kSmallerScene = "use a smaller scene";
+constexpr const char* kFewerKeys = "use fewer --time-steps or a smaller scene";
+
+std::vector<SceneBuffer> scene_buffers(const Scene& scene, uint64_t keys) {
+    uint64_t texels = 0;
+    for (const Image& image : scene.images) texels += uint64_t(image.width) * image.height;
+    const uint64_t vertices = scene.vertices.size() + 64;  // Rounded up to keep bindings aligned.
+    return {{"triangles", scene.triangles.size() + 1, 16, kSmallerScene},
+            {"positions (vertices times poses)", vertices * keys, 16, kFewerKeys},
+            {"normals (vertices times poses)", vertices * keys, 16, kFewerKeys},
+            {"vertex attributes", 2 * vertices, 16, kSmallerScene},
+            {"materials", 2 * scene.materials.size(), 16, kSmallerScene},
+            {"texels of decoded textures, four at a time,", (texels + 3) / 4, 16, "use smaller or fewer textures"}};
+}
+
+// What is there only while the scene is posed.
+std::vector<SceneBuffer> posing_buffers(const Scene& scene, uint64_t keys, const Pose& pose) {
+    return {{"vertices at rest", 3 * scene.vertices.size(), 16, kSmallerScene},
+            {"joint weights", scene.influences.size(), 8, kSmallerScene},
+            {"morph target positions", scene.morph_positions.size(), 16, kSmallerScene},
+            {"morph target normals", scene.morph_normals.size(), 16, kSmallerScene},
+            {"matrices", pose.palette.size() * keys, 16, kFewerKeys},
+            {"morph weights", pose.morph_weights.size() * keys, 4, kFewerKeys}};
+}
+
+uint64_t bytes_of(const std::vector<SceneBuffer>& buffers) {
+    uint64_t bytes = 0;
+    for (const SceneBuffer& b : buffers) bytes += b.elements * b.bytes;
+    return bytes;
+}
+
 }  // namespace
+
+void check_scene(const gpu::Device& device, const Scene& scene, const std::vector<Pose>& poses, uint64_t budget) {
+    const gpu::Limits& limits = device.limits();
+    const std::vector<SceneBuffer> kept = scene_buffers(scene, poses.size());
+    const std::vector<SceneBuffer> posing = posing_buffers(scene, poses.size(), poses.front());
+    for (const std::vector<SceneBuffer>* buffers : {&kept, &posing}) {
+        for (const SceneBuffer& b : *buffers) {
+            const uint64_t most = std::min(limits.max_texels, limits.max_buffer_bytes / b.bytes - 1);
+            if (b.elements <= most) continue;
+            throw Error(ErrorKind::out_of_memory,
+                        std::to_string(b.elements) + " " + b.what + " are more than the " + std::to_string(most) +
+                            " that the device can bind",
+                        scene.path.string(), b.hint);
+        }
+    }
+    // The camera's view of the vertices, and one light's.
+    const uint64_t views = (scene.lights.empty() ? 1 : 2) * kept[1].elements * kept[1].bytes;
+    const uint64_t needed = bytes_of(kept) + std::max(bytes_of(posing), views) + kLeastWorkBytes;
+    if (needed <= budget) return;
+    const uint64_t mebibytes = needed / (1u << 20) + 1;
+    throw Error(ErrorKind::out_of_memory, "the scene's own data takes " + std::to_string(mebibytes) + " MiB of device memory",
+                scene.path.string(),
+                needed <= limits.heap_bytes
+                    ? "use --memory-budget " + std::to_string(mebibytes) + "M or more"
+                    : "the device has " + std::to_string(limits.heap_bytes >> 20) + " MiB: use a smaller scene");
+}
 
 bool is_still(const std::vector<Pose>& poses) {
     const Pose& first = poses.front();
@@ -52,24 +120,29 @@ uint32_t light_cells(uint32_t segments, bool still) {
     return std::max(1u, kLightCells / segments) * segments;
 }
 
-uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget,
-                     uint64_t visibility_bytes) {
-    uint64_t all = uint64_t(grid.tiles_x) * grid.tiles_y * spp * shared::kTileTexels;
-    uint64_t left = budget - std::min(budget, device.live_bytes());
-    uint64_t most =
-        std::min({kBatchSlots, all, left / 4 / (kSlotBytes + visibility_bytes), device.limits().max_storage_range / 8});
+uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities) {
+    const gpu::Limits& limits = device.limits();
+    const uint64_t all = uint64_t(tiles_across(view)) * tiles_down(view) * spp * shared::kTileTexels;
+    const uint64_t most = std::min({kBatchSlots, all, device.budget_left() / 4 / (kSlotBytes + 4 * uint64_t(visibilities)),
+                                    limits.max_storage_range / 8, limits.max_texels / std::max(1u, visibilities)});
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }
 
-std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uint64_t most_slots, uint32_t most_strata) {
+uint64_t film_tiles(const gpu::Device& device, uint32_t planes) {
+    const uint64_t bytes = std::min(device.limits().max_storage_range, device.budget_left() / 4);
+    return std::max<uint64_t>(1, bytes / (uint64_t(planes) * shared::kTileTexels * sizeof(float)));
+}
+
+std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t most_slots, uint32_t most_strata) {
     uint64_t items = most_slots / shared::kTileTexels;
     uint32_t strata = static_cast<uint32_t>(std::min<uint64_t>({spp, items, kMostStrata, most_strata}));
-    uint32_t tiles = grid.tiles_x * grid.tiles_y;
-    uint32_t tile_step = static_cast<uint32_t>(std::min<uint64_t>(tiles, items / strata));
+    uint32_t tile_step = static_cast<uint32_t>(std::min<uint64_t>(window.tile_count, items / strata));
     std::vector<Batch> batches;
     for (uint32_t s = 0; s < spp; s += strata) {
-        for (uint32_t tile = 0; tile < tiles; tile += tile_step)
-            batches.push_back({tile, std::min(tile_step, tiles - tile), s, std::min(strata, spp - s)});
+        for (uint32_t tile = 0; tile < window.tile_count; tile += tile_step) {
+            batches.push_back(
+                {window.tile_first + tile, std::min(tile_step, window.tile_count - tile), s, std::min(strata, spp - s)});
+        }
     }
     return batches;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How a frame is cut up: cells of time, batches of samples.
+// What a frame needs, and how it is cut up: cells of time, windows, batches of samples.
 #pragma once
 
 #include <gnomon/scene.hpp>
@@ -8,6 +8,10 @@
 #include "stages/sample.hpp"
 
 namespace gnomon {
+
+/// That the scene's own data can be bound and fits into the budget, beside a little to work with; everything else is cut to fit.
+/// Errors: ErrorKind::out_of_memory, saying how much would do.
+void check_scene(const gpu::Device& device, const Scene& scene, const std::vector<Pose>& poses, uint64_t budget);
 
 /// Nothing moves between the poses: no vertex, camera or light.
 bool is_still(const std::vector<Pose>& poses);
@@ -22,12 +26,14 @@ uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);
 /// Cells of time of a light's S-buffer whose ranges may be cut where a cell ends.
 uint32_t light_cells(uint32_t segments, bool still);
 
-/// Most slots of one batch, so that its buffers fit into the budget and into one binding. visibility_bytes: of a slot, of
-/// methods that give shares.
-uint64_t batch_slots(const gpu::Device& device, const shared::ViewGrid& grid, uint32_t spp, uint64_t budget,
-                     uint64_t visibility_bytes);
+/// Most slots of one batch, so that its buffers fit into the budget and into one binding. visibilities: shares that a slot has.
+uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities);
 
-/// Batches that cover every tile and stratum once, of at most `most_strata` strata; for each tile the strata in order.
-std::vector<Batch> split_batches(const shared::ViewGrid& grid, uint32_t spp, uint64_t most_slots, uint32_t most_strata = ~0u);
+/// Most tiles of a window of the camera's view, so that its film fits into the budget and into one binding.
+uint64_t film_tiles(const gpu::Device& device, uint32_t planes);
+
+/// Batches that cover every tile and stratum of the window once, of at most `most_strata` strata; for each tile the strata in
+/// order.
+std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t most_slots, uint32_t most_strata = ~0u);
 
 }  // namespace gnomon

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/bin.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <gnomon/error.hpp>
 
 #include "shared/rect.h"
@@ -12,118 +14,236 @@ namespace {
 
 using gpu::Texel;
 
-void record_project(Programs& programs, gpu::Recorder& recorder, const Geometry& geometry, const View& view, const Bins& bins) {
-    uint64_t key_bytes = uint64_t(geometry.vertex_stride) * sizeof(glm::vec4);
-    for (size_t k = 0; k < view.keys.size(); ++k) {
-        const ViewKey& key = view.keys[k];
-        shared::ProjectParams params{key.row_x,
-                                     key.row_y,
-                                     key.row_z,
-                                     key.row_w,
-                                     key.origin,
-                                     geometry.vertex_count,
-                                     static_cast<uint32_t>(k * geometry.vertex_stride)};
-        recorder.dispatch("setup/project", programs.get("setup/project"),
-                          bindings({{"positions", &geometry.positions, Texel::rgba32_float},
-                                    {"RasterVertices", &bins.raster_vertices, {}, k * key_bytes, key_bytes}}),
-                          params, groups_of(geometry.vertex_count, 64));
+// lavapipe ends an invocation's loops after 65,535 turns: a block's rounds in bin/large, a prism's blocks in bin/blocks.
+constexpr uint32_t kMostTiles = (16384 / shared::kTileSize) * (16384 / shared::kTileSize);
+static_assert(kMostTiles / (shared::kMostBlocks * shared::kBlockTiles) < 65535 && shared::kMostBlocks < 65535);
+
+// Rectangles, and blocks, in memory at one time: what they take is seldom more.
+constexpr uint64_t kRectBytes = uint64_t{64} << 20;
+constexpr uint64_t kLeastBytes = uint64_t{1} << 20;
+// Triangles of a chunk or a part are a multiple of this, which keeps every binding of rectangles aligned.
+constexpr uint32_t kTriangleAlign = 64;
+
+// Triangles [first, first + count).
+struct Run {
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
+// Blocks of large prisms that are in memory at one time: of each cell, those of a run of triangles.
+struct BlockPass {
+    struct Piece {
+        uint32_t cell = 0;
+        Run run;
+    };
+    std::vector<Piece> pieces;
+    uint32_t block_count = 0;
+};
+
+// Lists the prisms of one window; counts first, fills after.
+class Lister {
+public:
+    Lister(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, Listing listing, Bins& bins)
+        : device_(device),
+          programs_(programs),
+          geometry_(geometry),
+          rect_(rect_of(view, bins.window)),
+          by_bounds_(listing == Listing::bounds),
+          bins_(bins) {
+        const gpu::Limits& limits = device.limits();
+        const uint64_t cells = bins.grid.cell_count;
+        const uint64_t bytes = std::min({kRectBytes, limits.max_storage_range, limits.max_texels * sizeof(glm::uvec2),
+                                         std::max(kLeastBytes, device.budget_left() / 8)});
+        const uint64_t most =
+            std::max<uint64_t>(kTriangleAlign, bytes / (cells * sizeof(glm::uvec2)) & ~(kTriangleAlign - 1ull));
+        chunk_ = static_cast<uint32_t>(
+            std::min<uint64_t>(most, groups_of(geometry.triangle_count, kTriangleAlign) * kTriangleAlign));
+        // Blocks of a part of one cell's triangles fit into one binding even if all are as large as can be.
+        most_blocks_ = static_cast<uint32_t>(std::min(bytes / sizeof(glm::uvec2), limits.max_texels));
+        part_log2_ = static_cast<uint32_t>(std::bit_width(std::max(kTriangleAlign, most_blocks_ / shared::kMostBlocks)) - 1);
+        parts_ = static_cast<uint32_t>(groups_of(chunk_, 1ull << part_log2_));
+        rects_ = device.allocate("rects", cells * chunk_ * sizeof(glm::uvec2));
+        block_counts_ = device.allocate("block_counts", cells * parts_ * 4);
+        block_cursor_ = device.allocate("block_cursor", 4);
     }
+
+    /// One pass over all prisms. fill: the lists' cursors and entries, else only their counts. What was recorded before runs
+    /// before; the last commands are left to the caller to run.
+    void run(gpu::Recorder& recorder, bool fill, const gpu::Buffer& lists, const gpu::Buffer& entries) {
+        for (uint32_t first = 0; first < bins_.grid.triangle_count; first += chunk_) {
+            const Run chunk{first, std::min(chunk_, bins_.grid.triangle_count - first)};
+            if (!is_set_up(chunk)) set_up(recorder, chunk);
+            for (uint32_t cell = 0; cell < bins_.grid.cell_count; ++cell)
+                list_small(recorder, fill, chunk, cell, lists, entries);
+            for (const BlockPass& pass : passes_) list_large(recorder, fill, chunk, pass, lists, entries);
+        }
+    }
+
+private:
+    bool is_set_up(const Run& chunk) const { return chunk_in_memory_.count > 0 && chunk.first == chunk_in_memory_.first; }
+
+    // The rectangles of a chunk, and how its blocks are cut into passes.
+    void set_up(gpu::Recorder& recorder, const Run& chunk) {
+        const uint32_t cells = bins_.grid.cell_count;
+        recorder.fill("setup/prisms", block_counts_, 0);
+        for (uint32_t cell = 0; cell < cells; ++cell) {
+            recorder.dispatch("setup/prisms", programs_.get("setup/prisms"),
+                              bindings({{"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                        {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                        {"Rects", &rects_, {}, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
+                                        {"BlockCounts", &block_counts_}}),
+                              shared::PrismParams{bins_.grid, cell, chunk.first, chunk.count, part_log2_, cell * parts_,
+                                                  rect_.first_tile, rect_.last_tile},
+                              groups_of(chunk.count, 64));
+        }
+        recorder.submit();
+        chunk_in_memory_ = chunk;
+        passes_.clear();
+        uint32_t most = 0;
+        const std::vector<uint32_t> counts = gpu::download_vector<uint32_t>(device_, block_counts_, uint64_t(cells) * parts_);
+        for (uint32_t cell = 0; cell < cells; ++cell) {
+            for (uint32_t part = 0; part < parts_; ++part) {
+                const uint32_t blocks = counts[cell * parts_ + part];
+                if (blocks == 0) continue;
+                if (passes_.empty() || passes_.back().block_count + uint64_t(blocks) > most_blocks_) passes_.emplace_back();
+                BlockPass& pass = passes_.back();
+                const uint32_t first = part << part_log2_;
+                pass.pieces.push_back({cell, {first, std::min(1u << part_log2_, chunk.count - first)}});
+                pass.block_count += blocks;
+                most = std::max(most, pass.block_count);
+            }
+        }
+        const uint64_t bytes = uint64_t(most) * sizeof(glm::uvec2);
+        if (!blocks_ || blocks_.bytes() < bytes) {
+            blocks_ = gpu::Buffer();
+            blocks_ = device_.allocate("blocks", bytes);
+        }
+    }
+
+    void list_small(gpu::Recorder& recorder, bool fill, const Run& chunk, uint32_t cell, const gpu::Buffer& lists,
+                    const gpu::Buffer& entries) const {
+        recorder.dispatch(fill ? "bin/fill" : "bin/count", programs_.get("bin/small", {fill, by_bounds_}),
+                          bindings({{"rects", &rects_, Texel::rg32_uint, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
+                                    {"Lists", &lists},
+                                    {"Entries", &entries}}),
+                          shared::BinParams{bins_.grid, cell, chunk.first, chunk.count, 0, 0, 0}, groups_of(chunk.count, 64));
+    }
+
+    void list_large(gpu::Recorder& recorder, bool fill, const Run& chunk, const BlockPass& pass, const gpu::Buffer& lists,
+                    const gpu::Buffer& entries) const {
+        recorder.fill("bin/blocks", block_cursor_, 0);
+        for (const BlockPass::Piece& piece : pass.pieces) {
+            recorder.dispatch("bin/blocks", programs_.get("bin/blocks"),
+                              bindings({{"rects", &rects_, Texel::rg32_uint, rect_bytes(piece.cell, 0), rect_bytes(0, chunk_)},
+                                        {"Blocks", &blocks_},
+                                        {"BlockCount", &block_cursor_}}),
+                              shared::BinParams{bins_.grid, piece.cell, chunk.first + piece.run.first, piece.run.count,
+                                                piece.run.first, 0, 0},
+                              groups_of(piece.run.count, 64));
+        }
+        recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs_.get("bin/large", {fill, by_bounds_}),
+                          bindings({{"blocks", &blocks_, Texel::rg32_uint},
+                                    {"rects", &rects_, Texel::rg32_uint},
+                                    {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                    {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                    {"Lists", &lists},
+                                    {"Entries", &entries}}),
+                          shared::BinParams{bins_.grid, 0, chunk.first, chunk.count, 0, chunk_, pass.block_count},
+                          groups_of(uint64_t(pass.block_count) * shared::kBlockTiles, 64));
+    }
+
+    // Of so many cells and triangles.
+    uint64_t rect_bytes(uint64_t cells, uint64_t triangles) const { return (cells * chunk_ + triangles) * sizeof(glm::uvec2); }
+
+    gpu::Device& device_;
+    Programs& programs_;
+    const Geometry& geometry_;
+    WindowRect rect_;
+    bool by_bounds_;
+    Bins& bins_;
+    uint32_t chunk_ = 0;      // Triangles whose rectangles are in memory at one time.
+    uint32_t parts_ = 0;      // Of a chunk, in which blocks are counted.
+    uint32_t part_log2_ = 0;  // Triangles of a part.
+    uint32_t most_blocks_ = 0;
+    Run chunk_in_memory_;
+    std::vector<BlockPass> passes_;
+    gpu::Buffer rects_, block_counts_, block_cursor_, blocks_;
+};
+
+[[noreturn]] void fail_lists(const View& view, const std::string& what) {
+    throw Error(ErrorKind::out_of_memory, what + " in the tiles of a view are more than the device can bind",
+                std::to_string(view.width) + "x" + std::to_string(view.height),
+                "all lie in one of its tiles: use a larger --size or --shadow-res, or fewer --time-steps");
 }
 
 }  // namespace
 
-Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
-                Listing listing) {
-    const bool by_bounds = listing == Listing::bounds;
+Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count) {
     Bins bins;
-    shared::ViewGrid& grid = bins.grid;
-    grid.width = view.width;
-    grid.height = view.height;
-    grid.tiles_x = static_cast<uint32_t>(groups_of(view.width, shared::kTileSize));
-    grid.tiles_y = static_cast<uint32_t>(groups_of(view.height, shared::kTileSize));
-    grid.cell_count = cell_count;
-    grid.segment_count = geometry.segment_count;
-    grid.triangle_count = geometry.triangle_count;
-    grid.vertex_stride = geometry.vertex_stride;
-
-    uint64_t list_count = uint64_t(grid.tiles_x) * grid.tiles_y * cell_count;
-    // Each cell's rectangles are bound on their own.
-    uint64_t alignment = std::max(device.limits().storage_alignment, device.limits().texel_alignment);
-    uint64_t rect_stride = groups_of(uint64_t(geometry.triangle_count) * sizeof(glm::uvec2), alignment) * alignment;
-    bins.raster_vertices =
-        device.allocate("raster_vertices", uint64_t(geometry.vertex_stride) * view.keys.size() * sizeof(glm::vec4));
-    bins.offsets = device.allocate("bin_offsets", scan_bytes(list_count));
-    gpu::Buffer rects = device.allocate("rects", rect_stride * cell_count);
-    gpu::Buffer block_count = device.allocate("block_count", 4);
-    uint64_t triangle_groups = groups_of(geometry.triangle_count, 64);
-
+    bins.grid = {view.width,
+                 view.height,
+                 tiles_across(view),
+                 0,
+                 cell_count,
+                 geometry.segment_count,
+                 geometry.triangle_count,
+                 geometry.vertex_stride};
+    const uint64_t stride = geometry.vertex_stride;
+    bins.raster_vertices = device.allocate("raster_vertices", stride * view.keys.size() * sizeof(glm::vec4));
     gpu::Recorder recorder(device);
-    record_project(programs, recorder, geometry, view, bins);
-    recorder.fill("setup/prisms", block_count, 0);
-    for (uint32_t cell = 0; cell < cell_count; ++cell) {
-        recorder.dispatch("setup/prisms", programs.get("setup/prisms"),
-                          bindings({{"triangles", &geometry.triangles, Texel::rgba32_uint},
-                                    {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
-                                    {"Rects", &rects, {}, cell * rect_stride, rect_stride},
-                                    {"BlockCount", &block_count}}),
-                          shared::PrismParams{grid, cell}, triangle_groups);
+    for (size_t k = 0; k < view.keys.size(); ++k) {
+        const ViewKey& key = view.keys[k];
+        for (const VertexRun& run : vertex_runs(device, geometry)) {
+            const uint64_t first = k * stride + run.first;
+            shared::ProjectParams params{
+                key.row_x, key.row_y, key.row_z, key.row_w, key.origin, run.count, static_cast<uint32_t>(first)};
+            recorder.dispatch(
+                "setup/project", programs.get("setup/project"),
+                bindings(
+                    {{"positions", &geometry.positions, Texel::rgba32_float},
+                     {"RasterVertices", &bins.raster_vertices, {}, first * sizeof(glm::vec4), run.count * sizeof(glm::vec4)}}),
+                params, groups_of(run.count, 64));
+        }
     }
     recorder.submit();
-    uint32_t large_blocks = gpu::download_vector<uint32_t>(device, block_count, 1)[0];
-    gpu::Buffer blocks = device.allocate("blocks", uint64_t(large_blocks) * sizeof(glm::uvec2));
+    return bins;
+}
 
-    auto params = [&](uint32_t cell) {
-        return shared::BinParams{grid, cell, static_cast<uint32_t>(rect_stride / sizeof(glm::uvec2)), large_blocks};
-    };
-    auto record_lists = [&](bool fill, const gpu::Buffer& lists, const gpu::Buffer& entries) {
-        const char* stage = fill ? "bin/fill" : "bin/count";
-        for (uint32_t cell = 0; cell < cell_count; ++cell) {
-            recorder.dispatch(stage, programs.get("bin/small", {fill, by_bounds}),
-                              bindings({{"rects", &rects, Texel::rg32_uint, cell * rect_stride, rect_stride},
-                                        {"Lists", &lists},
-                                        {"Entries", &entries}}),
-                              params(cell), triangle_groups);
-            if (!fill && large_blocks > 0) {
-                recorder.dispatch("bin/blocks", programs.get("bin/blocks"),
-                                  bindings({{"rects", &rects, Texel::rg32_uint, cell * rect_stride, rect_stride},
-                                            {"Blocks", &blocks},
-                                            {"BlockCount", &block_count}}),
-                                  params(cell), triangle_groups);
-            }
-        }
-        recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs.get("bin/large", {fill, by_bounds}),
-                          bindings({{"blocks", &blocks, Texel::rg32_uint},
-                                    {"rects", &rects, Texel::rg32_uint},
-                                    {"triangles", &geometry.triangles, Texel::rgba32_uint},
-                                    {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
-                                    {"Lists", &lists},
-                                    {"Entries", &entries}}),
-                          params(0), groups_of(uint64_t(large_blocks) * shared::kBlockTiles, 64));
-    };
-    gpu::Buffer no_entries = device.allocate("bin_entries", 4);
+void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
+                 Listing listing, Bins& bins) {
+    const gpu::Limits& limits = device.limits();
+    bins.window = window;
+    bins.grid.tile_first = window.tile_first;
+    bins.offsets = gpu::Buffer();
+    bins.entries = gpu::Buffer();
+    const uint64_t list_count = uint64_t(window.tile_count) * bins.grid.cell_count;
+    if (scan_bytes(list_count) > std::min(limits.max_storage_range, limits.max_texels * 4))
+        fail_lists(view, std::to_string(list_count) + " lists");
+    bins.offsets = device.allocate("bin_offsets", scan_bytes(list_count));
     gpu::Buffer cursors = device.allocate("bin_cursors", scan_bytes(list_count));  // First the counts.
+    Lister lister(device, programs, geometry, view, listing, bins);
+
+    gpu::Recorder recorder(device);
     recorder.fill("bin/count", cursors, 0);
-    recorder.fill("bin/count", block_count, 0);
-    record_lists(false, cursors, no_entries);
-    Scan scan = record_scan(device, programs, recorder, cursors, static_cast<uint32_t>(list_count), bins.offsets);
+    const gpu::Buffer no_entries = device.allocate("bin_entries", 4);
+    lister.run(recorder, false, cursors, no_entries);
+    const Scan scan = record_scan(device, programs, recorder, cursors, static_cast<uint32_t>(list_count), bins.offsets);
     recorder.copy("bin/fill", bins.offsets, 0, cursors, 0, scan_bytes(list_count));
     recorder.submit();
     bins.entry_count = gpu::download_vector<uint32_t>(device, bins.offsets, 1, list_count * 4)[0];
     bins.longest = longest_of(device, scan);
-    if (bins.entry_count == shared::kNone) {
-        throw Error(ErrorKind::out_of_memory, "more than 2^32 prisms in the tiles of a view",
-                    std::to_string(view.width) + "x" + std::to_string(view.height), "use a smaller --size or --shadow-res");
-    }
-    if (uint64_t(bins.entry_count) * 4 > device.limits().max_storage_range) {
-        throw Error(ErrorKind::out_of_memory,
-                    std::to_string(bins.entry_count) + " prisms in the tiles of a view are more than the device can bind",
-                    std::to_string(view.width) + "x" + std::to_string(view.height), "use a smaller --size or --shadow-res");
-    }
+    if (bins.entry_count == shared::kNone) fail_lists(view, "more than 2^32 prisms");
+    if (bins.entry_count > std::min(limits.max_storage_range / 4, limits.max_texels))
+        fail_lists(view, std::to_string(bins.entry_count) + " prisms");
     bins.entries = device.allocate("bin_entries", uint64_t(bins.entry_count) * 4);
-    if (bins.entry_count > 0) {
-        record_lists(true, cursors, bins.entries);
-        recorder.submit();
-    }
+    if (bins.entry_count > 0) lister.run(recorder, true, cursors, bins.entries);
+    recorder.submit();
+}
+
+Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
+                Listing listing) {
+    Bins bins = project_prisms(device, programs, geometry, view, cell_count);
+    list_prisms(device, programs, geometry, view, {0, tiles_across(view) * tiles_down(view)}, listing, bins);
     return bins;
 }
 

@@ -2,20 +2,23 @@
 // Setup and binning: the prisms of a view, listed per tile and cell of time. The same code serves camera and lights.
 #pragma once
 
-#include "pipeline/view.hpp"
 #include "stages/pose.hpp"
+#include "stages/window.hpp"
 
 namespace gnomon {
 
-/// The prisms of one view. List of tile and cell: entries [offsets[i], offsets[i + 1]), i = tile * cell_count + cell. An entry
-/// is a triangle, with kReversed where its orientation is reversed.
+/// The prisms of one view, listed in the tiles of a window. List of tile and cell: entries [offsets[i], offsets[i + 1]), i =
+/// (tile - window.tile_first) * cell_count + cell. An entry is a triangle, with kReversed where its orientation is reversed.
 struct Bins {
     shared::ViewGrid grid;
+    Window window;
     gpu::Buffer raster_vertices;  ///< vec4 per key and vertex, in the view's raster space.
     gpu::Buffer offsets;
     gpu::Buffer entries;
     uint32_t entry_count = 0;
     uint32_t longest = 0;  ///< Entries of the longest list.
+
+    uint32_t item_count() const { return window.tile_count * grid.cell_count; }
 };
 
 /// In which tiles a prism is listed.
@@ -24,8 +27,16 @@ enum class Listing {
     bounds,  ///< All that its bounds touch, once, not reversed.
 };
 
-/// Project, bound, count, scan, fill. cell_count: a multiple of the segments.
+/// Bins without lists: the view's vertices are projected. cell_count: a multiple of the segments.
 /// Errors: ErrorKind::out_of_memory.
+Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count);
+
+/// Bound, count, scan, fill: the lists of a window, instead of those that there are.
+/// Errors: ErrorKind::out_of_memory, also where the lists are more than the device can bind.
+void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
+                 Listing listing, Bins& bins);
+
+/// Both, for the whole view.
 Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
                 Listing listing = Listing::swept);
 

@@ -2,6 +2,7 @@
 #include "stages/coverage.hpp"
 
 #include <algorithm>
+#include <gnomon/error.hpp>
 
 #include "stages/grid.hpp"
 #include "stages/raster_stage.hpp"
@@ -10,8 +11,12 @@ namespace gnomon {
 
 CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins,
                           bool orthographic, bool cull_back_faces) {
-    const uint32_t items = bins.grid.tiles_x * bins.grid.tiles_y * bins.grid.cell_count;
+    const uint32_t items = bins.item_count();
     const uint64_t item_bytes = uint64_t(shared::kTileTexels) * 4, bytes = items * item_bytes;
+    if (uint64_t(items) * shared::kTileTexels > device.limits().max_texels) {
+        throw Error(ErrorKind::out_of_memory, "the coverage map of a light's view is more than the device can bind", "S-buffer",
+                    "use a smaller --shadow-res");
+    }
     CoverageMap map;
     map.nearest_depths = device.allocate("nearest_depths", bytes);
     map.nearest_triangles = device.allocate("nearest_triangles", bytes);

@@ -73,6 +73,16 @@ void upload_surfaces(gpu::Device& device, const Scene& scene, Geometry& geometry
 
 }  // namespace
 
+std::vector<VertexRun> vertex_runs(const gpu::Device& device, const Geometry& geometry) {
+    constexpr uint64_t kAlign = 64;  // 1024 bytes, which any device can bind from.
+    const uint64_t most = std::max(kAlign, device.limits().max_storage_range / sizeof(glm::vec4) / kAlign * kAlign);
+    std::vector<VertexRun> runs;
+    for (uint64_t first = 0; first < geometry.vertex_count; first += most) {
+        runs.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(std::min(most, geometry.vertex_count - first))});
+    }
+    return runs;
+}
+
 Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& scene, const std::vector<Pose>& poses) {
     using gpu::Texel;
     // Each key is bound on its own, so its first byte must lie on the device's alignments.
@@ -97,19 +107,23 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& sce
     geometry.normals = device.allocate("normals", key_bytes * poses.size());
     std::vector<gpu::Buffer> palettes, weights;
     gpu::Recorder recorder(device);
+    const std::vector<VertexRun> runs = vertex_runs(device, geometry);
     for (size_t k = 0; k < poses.size(); ++k) {
         palettes.push_back(gpu::upload_new(device, "palette", poses[k].palette));
         weights.push_back(gpu::upload_new(device, "morph_weights", poses[k].morph_weights));
-        recorder.dispatch("pose", programs.get("pose/pose"),
-                          bindings({{"rest", &rest, Texel::rgba32_uint},
-                                    {"influences", &influences, Texel::rg32_uint},
-                                    {"palette", &palettes.back(), Texel::rgba32_float},
-                                    {"morph_positions", &morph_positions, Texel::rgba32_float},
-                                    {"morph_normals", &morph_normals, Texel::rgba32_float},
-                                    {"morph_weights", &weights.back(), Texel::r32_float},
-                                    {"Positions", &geometry.positions, {}, k * key_bytes, key_bytes},
-                                    {"Normals", &geometry.normals, {}, k * key_bytes, key_bytes}}),
-                          shared::PoseParams{geometry.vertex_count}, groups_of(geometry.vertex_count, 64));
+        for (const VertexRun& run : runs) {
+            const uint64_t offset = k * key_bytes + run.first * sizeof(glm::vec4), bytes = run.count * sizeof(glm::vec4);
+            recorder.dispatch("pose", programs.get("pose/pose"),
+                              bindings({{"rest", &rest, Texel::rgba32_uint},
+                                        {"influences", &influences, Texel::rg32_uint},
+                                        {"palette", &palettes.back(), Texel::rgba32_float},
+                                        {"morph_positions", &morph_positions, Texel::rgba32_float},
+                                        {"morph_normals", &morph_normals, Texel::rgba32_float},
+                                        {"morph_weights", &weights.back(), Texel::r32_float},
+                                        {"Positions", &geometry.positions, {}, offset, bytes},
+                                        {"Normals", &geometry.normals, {}, offset, bytes}}),
+                              shared::PoseParams{run.first, run.count}, groups_of(run.count, 64));
+        }
     }
     recorder.submit();
     return geometry;

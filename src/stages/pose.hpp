@@ -25,6 +25,15 @@ struct Geometry {
     bool smooth = false;     ///< A vertex has a normal.
 };
 
+/// Vertices [first, first + count).
+struct VertexRun {
+    uint32_t first = 0;
+    uint32_t count = 0;
+};
+
+/// The vertices of a key in runs whose records of 16 bytes one storage binding holds.
+std::vector<VertexRun> vertex_runs(const gpu::Device& device, const Geometry& geometry);
+
 /// Upload the scene and run the pose stage at every key.
 Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& scene, const std::vector<Pose>& poses);
 

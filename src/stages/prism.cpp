@@ -38,6 +38,7 @@ public:
           no_coverage_(device.allocate("unbound", 4)) {}
 
     const shared::ViewGrid& grid() const override { return bins_.grid; }
+    uint32_t item_count() const override { return bins_.item_count(); }
     uint32_t items_per_group() const override { return 8; }
     uint64_t longest() const override { return uint64_t(bins_.longest) * shared::kPrismTriangles; }
     uint32_t part_count() const override { return bin_part_count(bins_); }
@@ -77,6 +78,7 @@ public:
     }
 
     const shared::ViewGrid& grid() const override { return fragments_.grid(); }
+    uint32_t item_count() const override { return fragments_.item_count(); }
     uint32_t items_per_group() const override { return 1; }
     uint64_t longest() const override { return fragments_.longest() / 2; }
     uint32_t part_count() const override {

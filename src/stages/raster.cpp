@@ -25,9 +25,13 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
       raster_(std::move(raster)),
       layout_(layout),
       unbound_(device, layout.buffers.size()) {
-    const shared::ViewGrid& grid = raster_->grid();
-    item_count_ = grid.tiles_x * grid.tiles_y * grid.cell_count;
+    item_count_ = raster_->item_count();
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;
+    if (list_count_ + 1 > device.limits().max_texels) {
+        throw Error(ErrorKind::out_of_memory,
+                    std::to_string(list_count_) + " lists in a light's view are more than the device can bind", "S-buffer",
+                    "use a smaller --shadow-res");
+    }
     portions_ = raster_->portions();
     if (portions_.empty()) portions_.push_back({0, item_count_});
     uint64_t blocks = groups_of(item_count_, shared::kCountBlock);

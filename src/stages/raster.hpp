@@ -20,7 +20,7 @@ public:
     /// Of all lists and ranges, and of what they are made from.
     uint64_t map_bytes() const;
 
-    ItemOrder order() const override { return {raster_->grid().cell_count, raster_->grid().cell_count, 1}; }
+    ItemOrder order() const override { return {raster_->grid().cell_count}; }
     uint32_t item_count() const override { return item_count_; }
     uint64_t longest() const override { return raster_->longest(); }
     std::map<std::string, uint64_t> counts() const override;

@@ -23,6 +23,7 @@ public:
           ranges_per_prism_(ranges_per_prism) {}
 
     const shared::ViewGrid& grid() const override { return bins_.grid; }
+    uint32_t item_count() const override { return bins_.item_count(); }
     uint32_t items_per_group() const override { return items_per_group_; }
     uint64_t longest() const override { return uint64_t(bins_.longest) * ranges_per_prism_; }
     uint32_t part_count() const override { return bin_part_count(bins_); }

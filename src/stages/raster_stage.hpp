@@ -18,6 +18,7 @@ public:
     virtual ~RasterStage() = default;
 
     virtual const shared::ViewGrid& grid() const = 0;
+    virtual uint32_t item_count() const = 0;
     virtual uint32_t items_per_group() const = 0;
     virtual uint64_t longest() const = 0;     ///< At most so many elements in one list.
     virtual uint32_t part_count() const = 0;  ///< Dispatches that walk the longest source list.

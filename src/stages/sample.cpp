@@ -43,11 +43,19 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     run_hits_ = device.allocate("run_hits", scan_bytes(most_slots / shared::kScanRun));
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
     ticket_ = device.allocate("ticket", 4);
-    film_ = device.allocate("film", film_floats() * 4);
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
-    gpu::Recorder recorder(device);
+}
+
+void Sampler::begin_window() {
+    film_px_ = rect_of(view_, bins_.window).size_px;
+    const uint64_t bytes = uint64_t(film_px_.x) * film_px_.y * shared::film_planes(settings_.light_count) * 4;
+    if (film_.bytes() < bytes) {
+        film_ = gpu::Buffer();
+        film_ = device_.allocate("film", bytes);
+    }
+    gpu::Recorder recorder(device_);
     recorder.fill("sample/shade", film_, 0);
     recorder.submit();
 }
@@ -58,6 +66,7 @@ void Sampler::trace(const Batch& batch) {
     gpu::Recorder recorder(device_);
     tracer_.record(recorder, batch);
     lit_written_ = false;
+    cast_lights_.assign(settings_.light_count, false);
     recorder.fill("sample/compact", run_hits_, 0);
     recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
                       bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"Runs", &run_hits_}}),
@@ -92,8 +101,10 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                      {"Iterators", &iterators_}};
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
     // The first pass over the queue writes every hit's word, later ones clear bits in it.
-    bool first = !settings_.fractional && !lit_written_ && parts == 1 && band.item_first == 0 &&
-                 band.item_count == light.map->item_count();
+    const Window& window = light.bins.window;
+    const bool whole =
+        window.tile_count == tiles_across(light.view) * tiles_down(light.view) && band.item_count == light.map->item_count();
+    const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole;
     const ItemOrder order = light.map->order();
     gpu::Recorder recorder(device_);
     if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
@@ -116,8 +127,9 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     light.view.width,
                                     light.view.height,
                                     order.cell_count,
-                                    order.tile_stride,
-                                    order.cell_stride,
+                                    window.tile_first,
+                                    window.tile_count,
+                                    order.cell_major,
                                     shared::stratum_length(order.cell_count),
                                     light.view.scale_x,
                                     light.view.scale_y,
@@ -134,7 +146,8 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     }
     recorder.submit();
     if (!settings_.count_ranges) {
-        counts_.cast += band.item_first == 0 ? queue_count_ : 0;
+        counts_.cast += cast_lights_[light.light_ix] ? 0 : queue_count_;
+        cast_lights_[light.light_ix] = true;
         return;
     }
     uint64_t blocks = groups_of(queue_count_, kCountersHits);
@@ -149,35 +162,37 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
 void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
     gpu::Recorder recorder(device_);
     if (!lit_written_) recorder.fill("sample/shade", lit_, all_lit());
-    recorder.dispatch(
-        "sample/shade",
-        programs_.get("sample/shade", {view_.orthographic, tracer_.straddle(), settings_.keep_depths, geometry_.textured,
-                                       geometry_.smooth, lights_move, settings_.fractional}),
-        bindings({{"hits", &tracer_.hits(), Texel::r32_uint},
-                  {"lit", &lit_, Texel::r32_uint},
-                  {"triangles", &geometry_.triangles, Texel::rgba32_uint},
-                  {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                  {"positions", &geometry_.positions, Texel::rgba32_float},
-                  {"normals", &geometry_.normals, Texel::rgba32_float},
-                  {"attributes", &geometry_.attributes, Texel::rgba32_float},
-                  {"materials", &geometry_.materials, Texel::rgba32_uint},
-                  {"texels", &geometry_.texels, Texel::rgba32_uint},
-                  {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
-                  {"lights", &lights, Texel::rgba32_float},
-                  {"Film", &film_},
-                  {"Depths", &depth_values_}}),
-        shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count,
-                            settings_.spp, shared::stratum_length(settings_.spp), settings_.seed, settings_.light_count,
-                            static_cast<uint32_t>(view_.keys.size()), static_cast<uint32_t>(settings_.most_slots)},
-        batch_.tile_count);
+    recorder.dispatch("sample/shade",
+                      programs_.get("sample/shade", {view_.orthographic, tracer_.straddle(), settings_.keep_depths,
+                                                     geometry_.textured, geometry_.smooth, lights_move, settings_.fractional}),
+                      bindings({{"hits", &tracer_.hits(), Texel::r32_uint},
+                                {"lit", &lit_, Texel::r32_uint},
+                                {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                {"positions", &geometry_.positions, Texel::rgba32_float},
+                                {"normals", &geometry_.normals, Texel::rgba32_float},
+                                {"attributes", &geometry_.attributes, Texel::rgba32_float},
+                                {"materials", &geometry_.materials, Texel::rgba32_uint},
+                                {"texels", &geometry_.texels, Texel::rgba32_uint},
+                                {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
+                                {"lights", &lights, Texel::rgba32_float},
+                                {"Film", &film_},
+                                {"Depths", &depth_values_}}),
+                      shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first,
+                                          batch_.stratum_count, settings_.spp, shared::stratum_length(settings_.spp),
+                                          settings_.seed, settings_.light_count, static_cast<uint32_t>(view_.keys.size()),
+                                          film_px_.x, film_px_.x * film_px_.y, static_cast<uint32_t>(settings_.most_slots)},
+                      batch_.tile_count);
     recorder.submit();
 }
 
-std::vector<float> Sampler::film() const { return gpu::download_vector<float>(device_, film_, film_floats()); }
-
-uint64_t Sampler::film_floats() const {
-    const uint64_t planes = shared::kFilmVisibility + uint64_t(settings_.light_count) * (settings_.fractional ? 2 : 1);
-    return uint64_t(bins_.grid.width) * bins_.grid.height * planes;
+std::vector<float> Sampler::resolve() {
+    const uint32_t pixels = film_px_.x * film_px_.y;
+    gpu::Recorder recorder(device_);
+    recorder.dispatch("sample/resolve", programs_.get("sample/resolve", {settings_.fractional}), bindings({{"Film", &film_}}),
+                      shared::ResolveParams{pixels, settings_.spp, settings_.light_count}, groups_of(pixels, 64));
+    recorder.submit();
+    return gpu::download_vector<float>(device_, film_, uint64_t(pixels) * shared::film_planes(settings_.light_count));
 }
 
 uint32_t Sampler::all_lit() const { return settings_.fractional ? std::bit_cast<uint32_t>(1.0f) : ~0u; }

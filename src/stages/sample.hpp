@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// A light's side of the shadow test.
+/// A light's side of the shadow test: what there is of one window of its view.
 struct LightSide {
     uint32_t light_ix = 0;
     View view;
@@ -39,6 +39,8 @@ public:
     Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
             const SamplerSettings& settings);
 
+    /// Begin the film of the window that the bins hold.
+    void begin_window();
     /// Forget the batch before: find the nearest triangle of each sample, then queue those that hit.
     void trace(const Batch& batch);
     /// Test the queue against a band of a light's S-buffer that is filled now.
@@ -46,7 +48,8 @@ public:
     /// Add the batch to the film.
     void shade(const gpu::Buffer& lights, bool lights_move);
 
-    std::vector<float> film() const;  ///< Planes as in comp_shaders/shared/film.h.
+    /// Finish the window's film. Its channels, plane-major, rows from the top: as Frame::channels.
+    std::vector<float> resolve();
     uint64_t hit_count() const { return hit_total_; }
     const ShadowCounts& shadow_counts() const { return counts_; }
 
@@ -56,7 +59,6 @@ public:
     std::vector<float> batch_depths() const;
 
 private:
-    uint64_t film_floats() const;
     uint32_t all_lit() const;  ///< A word of lit_ where nothing shadows.
 
     gpu::Device& device_;
@@ -66,7 +68,9 @@ private:
     const Bins& bins_;
     SamplerSettings settings_;
     Tracer tracer_;
-    bool lit_written_ = false;  ///< Of this batch.
+    bool lit_written_ = false;       ///< Of this batch.
+    std::vector<bool> cast_lights_;  ///< Those for which this batch's shadow tests are counted.
+    glm::uvec2 film_px_{0};          ///< Size of the window.
     Batch batch_;
     uint32_t queue_count_ = 0;
     uint64_t hit_total_ = 0;

@@ -10,7 +10,7 @@
 
 namespace gnomon {
 
-/// A run of items (a tile in a cell of time) and the elements of their texels.
+/// A run of items (a tile of a window in a cell of time) and the elements of their texels.
 struct Band {
     uint32_t item_first = 0;
     uint32_t item_count = 0;
@@ -20,13 +20,13 @@ struct Band {
     double t_close = 1.0;
 };
 
-/// How items are numbered: tile * tile_stride + cell * cell_stride.
+/// How items are numbered: tile * cell_count + cell, or cell * tile_count + tile; tiles from the window's first.
 struct ItemOrder {
     uint32_t cell_count = 1;  ///< Equal parts of the shutter.
-    uint32_t tile_stride = 1;
-    uint32_t cell_stride = 1;
+    bool cell_major = false;
 };
 
+/// Of one window of a light's view.
 class ShadowMap {
 public:
     ShadowMap() = default;
@@ -49,7 +49,8 @@ public:
     /// Fill a band; the one before is forgotten.
     virtual void fill(const Band& band) = 0;
 
-    /// How many ranges each texel has in the whole shutter, rows from the top; empty for maps without ranges. Fills all bands.
+    /// How many ranges each texel of the view has in the whole shutter, rows from the top, 0 outside of the window; empty for
+    /// maps without ranges. Fills all bands.
     virtual std::vector<uint32_t> texel_ranges(const std::vector<Band>& /*bands*/) { return {}; }
 
     /// What the test reads, the number of the first element in memory, and specialization constants of its own: constant_id 6,

@@ -62,7 +62,7 @@ protected:
                          .count_ranges = setup.counting});
         answers.triangle.assign(size_t(size.x) * size.y * kSpp, SampleRecord::kMiss);
         answers.lit.assign(answers.triangle.size(), 0);
-        for (const Batch& batch : split_batches(bins.grid, kSpp, setup.most_slots)) {
+        for (const Batch& batch : split_batches(bins.window, kSpp, setup.most_slots)) {
             sampler.trace(batch);
             for (LightSide& side : sides) {
                 for (const Band& band : side.bands) {

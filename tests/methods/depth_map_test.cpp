@@ -55,7 +55,7 @@ Checked check_map(const Soup& soup, const shared::ViewGrid& grid, const std::vec
     std::vector<std::vector<oracle::MovingTriangle>> triangles;
     for (uint32_t k = 0; k < soup.segments(); ++k) triangles.push_back(soup.all_triangles(k));
     const View view = soup.view();
-    const uint32_t texels = grid.tiles_x * grid.tiles_y * shared::kTileTexels;
+    const uint32_t texels = grid.tiles_x * ((grid.height + 7) / 8) * shared::kTileTexels;
     Checked checked;
     for (uint32_t i = 0; i < samples.size(); ++i) {
         const glm::uvec2 texel = texel_of(grid, i % texels);
@@ -143,8 +143,7 @@ TEST_F(DepthMapTest, SamplesAreWhatTheOracleSees) {
                 EXPECT_LT(checked.motion_error, 2e-4);
 
                 // A band a stratum: the same samples.
-                const uint64_t stratum =
-                    uint64_t(bins.grid.tiles_x) * bins.grid.tiles_y * shared::kTileTexels * (motion ? 8 : 4);
+                const uint64_t stratum = uint64_t(bins.window.tile_count) * shared::kTileTexels * (motion ? 8 : 4);
                 EXPECT_EQ(map.bands(stratum).size(), 7u);
                 const std::vector<MapSample> cut = map_samples(device(), map, motion, stratum);
                 ASSERT_EQ(cut.size(), samples.size());

@@ -25,7 +25,7 @@ gpu::Shader reader_of(const std::string& layout) {
 }  // namespace
 
 std::vector<std::vector<uint32_t>> read_bins(gpu::Device& device, const Bins& bins) {
-    const size_t count = size_t(bins.grid.tiles_x) * bins.grid.tiles_y * bins.grid.cell_count;
+    const size_t count = bins.item_count();
     const std::vector<uint32_t> offsets = gpu::download_vector<uint32_t>(device, bins.offsets, count + 1);
     const std::vector<uint32_t> entries = gpu::download_vector<uint32_t>(device, bins.entries, bins.entry_count);
     std::vector<std::vector<uint32_t>> lists;

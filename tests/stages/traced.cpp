@@ -40,7 +40,7 @@ std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup&
         {.shadow_stage = "sample/shadow@array", .spp = sampling.spp, .seed = sampling.seed, .most_slots = sampling.most_slots});
     std::vector<uint32_t> found(size_t(soup.width) * soup.height * sampling.spp, 0xdeadbeefu);
     uint64_t hits = 0;
-    for (const Batch& batch : split_batches(bins.grid, sampling.spp, sampling.most_slots)) {
+    for (const Batch& batch : split_batches(bins.window, sampling.spp, sampling.most_slots)) {
         sampler.trace(batch);
         const std::vector<uint32_t> slots = sampler.batch_hits();
         for (size_t slot = 0; slot < slots.size(); ++slot) {

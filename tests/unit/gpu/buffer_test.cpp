@@ -87,7 +87,7 @@ TEST_F(BufferTest, StatisticsFollowAllocations) {
 TEST_F(BufferTest, BudgetHolds) {
     device.set_budget(1 << 20);
     std::optional<Buffer> half = device.allocate("half", 1 << 19);
-    expect_error(ErrorKind::out_of_memory, {"'too much'", "512.0 KiB", "1.0 MiB", "half", "--memory-budget", "--shadow-res"},
+    expect_error(ErrorKind::out_of_memory, {"'too much'", "512.0 KiB", "1.0 MiB", "half", "--memory-budget"},
                  [&] { device.allocate("too much", (1 << 19) + 1); });
     EXPECT_EQ(device.live_bytes(), uint64_t{1} << 19);
     EXPECT_NO_THROW(device.allocate("other half", 1 << 19));

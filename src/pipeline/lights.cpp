@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gnomon/error.hpp>
+
+namespace gnomon {
+namespace {
+
+constexpr size_t kNotFilled = ~size_t(0);
+
+void release_side(LightSide& side) {
+    side.map.reset();
+    side.bands.clear();
+    side.bins = Bins();
+    side.filled = kNotFilled;
+}
+
+}  // namespace
+
+Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses, const Bounds& bounds)
+    : shared_(std::move(shared)) {
+    for (uint32_t i = 0; i < scene.lights.size(); ++i) {
+        if (scene.lights[i].kind == LightKind::point) continue;
+        Light& light = lights_.emplace_back();
+        light.side.light_ix = i;
+        light.side.view = light_view(scene.lights[i], poses, i, bounds, shared_.settings.shadow_res);
+    }
+    for (Light& light : lights_) {
+        contexts_.push_back({shared_.device, shared_.programs, shared_.geometry, shared_.settings, shared_.method,
+                             light.side.view, light.side.light_ix, shared_.still, 0, shared_.layout, shared_.raster,
+                             &shared_.camera});
+        const uint64_t all = uint64_t(tiles_across(light.side.view)) * tiles_down(light.side.view);
+        light.windows = windows_of(light.side.view, shared_.method.windowed ? most_tiles(contexts_.back()) : all);
+    }
+}
+
+// So that what there is of each list can be bound. What depends on the scene is found when a window is made.
+uint64_t Lights::most_tiles(const LightContext& context) const {
+    const gpu::Limits& limits = shared_.device.limits();
+    const uint64_t cells = shared_.method.light_cells(context);
+    const uint64_t lists = std::min(limits.max_storage_range / 4, limits.max_texels) - shared::kScanRun;
+    uint64_t most = lists / cells;
+    if (shared_.method.has_s_buffer())
+        most = std::min(most, (limits.max_texels - shared::kScanRun) / (cells * shared::kTileTexels));
+    return most;
+}
+
+void Lights::prepare() {
+    for (size_t i = 0; i < lights_.size(); ++i) make(i, 0);
+}
+
+bool Lights::release() {
+    bool any = false;
+    for (Light& light : lights_) {
+        any = any || light.side.bins.raster_vertices;
+        release_side(light.side);
+    }
+    return any;
+}
+
+bool Lights::release_others(size_t light) {
+    bool any = false;
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        if (i == light) continue;
+        any = any || lights_[i].side.bins.raster_vertices;
+        release_side(lights_[i].side);
+    }
+    return any;
+}
+
+template <class Work>
+bool Lights::with_room(size_t light, Work work) {
+    for (;;) {
+        try {
+            for (const gpu::StageTime& t : shared_.device.stage_times()) seconds_[t.name] -= t.seconds;
+            work();
+            for (const gpu::StageTime& t : shared_.device.stage_times()) seconds_[t.name] += t.seconds;
+            return true;
+        } catch (const Error& error) {
+            for (const gpu::StageTime& t : shared_.device.stage_times()) seconds_[t.name] += t.seconds;
+            if (error.kind() != ErrorKind::out_of_memory) throw;
+            failure_ = std::current_exception();
+        }
+        if (!release_others(light)) return false;
+    }
+}
+
+uint64_t Lights::share() const {
+    const auto unfilled =
+        std::count_if(lights_.begin(), lights_.end(), [](const Light& light) { return light.side.filled == kNotFilled; });
+    return shared_.device.budget_left() / static_cast<uint64_t>(std::max<std::ptrdiff_t>(1, unfilled));
+}
+
+void Lights::make_map(size_t light, const Window& window) {
+    LightSide& side = lights_[light].side;
+    LightContext& context = contexts_[light];
+    side.map.reset();
+    side.filled = kNotFilled;
+    const uint32_t cells = shared_.method.light_cells(context);
+    if (!side.bins.raster_vertices)
+        side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, cells);
+    list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, window,
+                shared_.raster == "prism" ? Listing::bounds : Listing::swept, side.bins);
+    context.bytes = share();
+    side.map = shared_.method.make_map(context, side.bins);
+    side.bands = side.map->bands(share());
+}
+
+void Lights::make(size_t light, size_t window) {
+    Light& made = lights_[light];
+    LightSide& side = made.side;
+    if (side.map && side.bins.window == made.windows[window]) return;
+    while (!with_room(light, [&] { make_map(light, made.windows[window]); })) {
+        release_side(side);
+        if (!shared_.method.windowed || !halve(made.windows, window, side.view)) std::rethrow_exception(failure_);
+    }
+    std::map<std::string, uint64_t>& counts = made.counts[side.bins.window.tile_first];
+    counts = side.map->counts();
+    counts["bin_entries"] = side.bins.entry_count;
+    made.effective = side.map->effective();
+    made.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
+}
+
+uint32_t Lights::most_strata() const {
+    const uint32_t spp = shared_.settings.spp;
+    uint32_t most = spp;
+    for (const Light& light : lights_) {
+        if (light.side.bands.empty()) continue;
+        const double longest = light.side.bands[0].t_close - light.side.bands[0].t_open;
+        most = std::min(most, static_cast<uint32_t>(std::max(1.0, std::floor(longest * spp))));
+    }
+    return most;
+}
+
+void Lights::test_shadows(Sampler& sampler, const Batch& batch, float tolerance) {
+    const double open = static_cast<double>(batch.stratum_first) / shared_.settings.spp;
+    const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / shared_.settings.spp;
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        Light& light = lights_[i];
+        for (size_t w = 0; w < light.windows.size(); ++w) {
+            make(i, w);
+            LightSide& side = light.side;
+            for (size_t b = 0; b < side.bands.size(); ++b) {
+                const Band& band = side.bands[b];
+                if (band.t_close <= open || band.t_open >= close) continue;
+                if (side.filled != b && !with_room(i, [&] { side.map->fill(band); })) std::rethrow_exception(failure_);
+                side.filled = b;
+                sampler.test_shadows(side, band, tolerance);
+            }
+        }
+    }
+}
+
+void Lights::report(Frame& frame) const {
+    for (const Light& light : lights_) {
+        const std::string suffix = "." + std::to_string(light.side.light_ix);
+        for (const auto& [tile, counts] : light.counts) {
+            for (const auto& [name, count] : counts) frame.stats.counts[name + suffix] += count;
+        }
+        for (const auto& [name, value] : light.effective) frame.effective[name] = value;
+    }
+}
+
+double Lights::map_seconds(const std::string& stage) const {
+    const auto found = seconds_.find(stage);
+    return found == seconds_.end() ? 0.0 : found->second;
+}
+
+std::vector<std::vector<uint32_t>> Lights::texel_ranges(uint32_t light_count) {
+    std::vector<std::vector<uint32_t>> all(light_count);
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        Light& light = lights_[i];
+        std::vector<uint32_t>& sums = all[light.side.light_ix];
+        for (size_t w = 0; w < light.windows.size(); ++w) {
+            make(i, w);
+            const std::vector<uint32_t> ranges = light.side.map->texel_ranges(light.side.bands);
+            light.side.filled = kNotFilled;
+            sums.resize(ranges.size());
+            std::transform(ranges.begin(), ranges.end(), sums.begin(), sums.begin(), std::plus<>());
+        }
+    }
+    return all;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lights of a frame. What their shadow tests read is made for a window of a light's view at a time, stays in memory while
+// there is room, and is made again when it is needed again.
+#pragma once
+
+#include <exception>
+
+#include "methods/method.hpp"
+#include "stages/sample.hpp"
+
+namespace gnomon {
+
+class Lights {
+public:
+    /// What all lights of a frame share.
+    struct Shared {
+        gpu::Device& device;
+        Programs& programs;
+        const Geometry& geometry;
+        const RenderSettings& settings;
+        const Method& method;
+        Layout layout;
+        std::string raster;
+        const View& camera;
+        bool still = false;  ///< Nothing moves.
+    };
+
+    /// Nothing is made yet. Point lights have no map.
+    Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses, const Bounds& bounds);
+
+    /// Make each light's first window. Errors: ErrorKind::out_of_memory where not even a tile of a light's view fits.
+    void prepare();
+    /// Free what can be made again; false where there is nothing.
+    bool release();
+
+    /// Strata that are best sampled together: where a map is cut in time, so are the samples, so that it is filled once.
+    uint32_t most_strata() const;
+    /// Test the sampler's hits, of the batch, against every light.
+    void test_shadows(Sampler& sampler, const Batch& batch, float tolerance);
+
+    /// Write counts, by "name.light", and what was really used.
+    void report(Frame& frame) const;
+    /// Seconds of a stage that went into what the shadow tests read.
+    double map_seconds(const std::string& stage) const;
+    /// As Frame::texel_ranges.
+    std::vector<std::vector<uint32_t>> texel_ranges(uint32_t light_count);
+
+private:
+    struct Light {
+        LightSide side;
+        std::vector<Window> windows;
+        std::map<uint32_t, std::map<std::string, uint64_t>> counts;  ///< Of each window that was made, by its first tile.
+        std::map<std::string, std::string> effective;
+    };
+
+    uint64_t most_tiles(const LightContext& context) const;
+    void make(size_t light, size_t window);
+    void make_map(size_t light, const Window& window);
+    bool release_others(size_t light);
+    /// Run the work; where it does not fit into memory, release the other lights and try again. False where that is in vain.
+    template <class Work>
+    bool with_room(size_t light, Work work);
+    uint64_t share() const;  ///< Bytes for the bands of one light.
+
+    Shared shared_;
+    std::vector<Light> lights_;
+    std::vector<LightContext> contexts_;  ///< Of each light; its map refers to it.
+    std::exception_ptr failure_;          ///< Why something did not fit.
+    std::map<std::string, double> seconds_;
+};
+
+}  // namespace gnomon
