@@ -3,6 +3,8 @@
 #include "gpu/bindings.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace gnomon::gpu {
 
@@ -28,6 +30,34 @@ Buffer::Impl& checked_buffer(std::string_view stage, const Device::Impl& device,
     if (!buffer) fail_stage(stage, name + " is an empty buffer");
     if (buffer.impl()->device.get() != &device) fail_stage(stage, name + " is a buffer of another device");
     return *buffer.impl();
+}
+
+const std::shared_ptr<Buffer::Impl>& checked_transfer(const Device::Impl& device, const Buffer& buffer, uint64_t offset,
+                                                      uint64_t bytes, const char* what) {
+    const std::shared_ptr<Buffer::Impl>& impl = buffer.impl();
+    const std::string hint = "fix the code that calls it";
+    if (!impl) throw Error(ErrorKind::internal, std::string(what) + " of an empty buffer", "", hint);
+    if (impl->device.get() != &device) {
+        throw Error(ErrorKind::internal, std::string(what) + " on another device", "buffer " + impl->name, hint);
+    }
+    if (offset > impl->bytes || bytes > impl->bytes - offset) {
+        throw Error(ErrorKind::internal,
+                    std::string(what) + " of " + std::to_string(bytes) + " bytes at " + std::to_string(offset) +
+                        " passes the end at " + std::to_string(impl->bytes),
+                    "buffer " + impl->name, hint);
+    }
+    return impl;
+}
+
+Grid checked_arguments(std::string_view stage, std::span<const std::byte> arguments, uint64_t most_groups) {
+    std::array<uint32_t, 3> groups{};
+    std::memcpy(groups.data(), arguments.data(), sizeof(groups));
+    const auto [x, y, z] = groups;
+    if (z != 1 || uint64_t{x} * y > most_groups) {
+        fail_stage(stage, "indirect arguments " + std::to_string(x) + " x " + std::to_string(y) + " x " + std::to_string(z) +
+                              ", which should be at most " + std::to_string(most_groups) + " workgroups in x and y");
+    }
+    return {x, y};
 }
 
 namespace {

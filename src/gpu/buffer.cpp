@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Device memory: allocation within a budget, texel views, copies from and to the host.
+// Device memory: allocation within a budget, texel views.
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstring>
 
 #include "gpu/vulkan.hpp"
 
@@ -32,23 +31,6 @@ Error memory_error(const Device::Impl& device, const std::string& name, uint64_t
                    const std::string& hint) {
     return Error(ErrorKind::out_of_memory, "no memory for buffer '" + name + "' of " + format_bytes(bytes) + ": " + why,
                  format_bytes(device.live_bytes) + " in use" + device.describe_live(), hint);
-}
-
-const std::shared_ptr<Buffer::Impl>& checked(Device& device, const Buffer& buffer, uint64_t offset, uint64_t bytes,
-                                             const char* what) {
-    const std::shared_ptr<Buffer::Impl>& impl = buffer.impl();
-    const std::string hint = "fix the code that calls it";
-    if (!impl) throw Error(ErrorKind::internal, std::string(what) + " of an empty buffer", "", hint);
-    if (impl->device != device.impl()) {
-        throw Error(ErrorKind::internal, std::string(what) + " on another device", "buffer " + impl->name, hint);
-    }
-    if (offset > impl->bytes || bytes > impl->bytes - offset) {
-        throw Error(ErrorKind::internal,
-                    std::string(what) + " of " + std::to_string(bytes) + " bytes at " + std::to_string(offset) +
-                        " passes the end at " + std::to_string(impl->bytes),
-                    "buffer " + impl->name, hint);
-    }
-    return impl;
 }
 
 }  // namespace
@@ -112,15 +94,6 @@ Memory Device::Impl::make_memory(const std::string& name, uint64_t bytes, VkBuff
     return made;
 }
 
-const Memory& Device::Impl::staging() {
-    if (staging_memory.mapped) return staging_memory;
-    constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    const std::array preferences{kHostReadable, kCoherent};
-    staging_memory = make_memory("staging", kStagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                 preferences, true);
-    return staging_memory;
-}
-
 Buffer::Buffer() = default;
 Buffer::~Buffer() = default;
 Buffer::Buffer(Buffer&&) noexcept = default;
@@ -167,42 +140,6 @@ Buffer Device::allocate(const std::string& name, uint64_t bytes) {
     buffer.impl_->bytes = bytes;
     impl_->add_live(name, bytes);
     return buffer;
-}
-
-void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset) {
-    const Memory& memory = checked(device, buffer, offset, data.size(), "upload")->memory;
-    if (data.empty()) return;
-    if (memory.mapped) {
-        std::memcpy(memory.mapped + offset, data.data(), data.size());
-        return;
-    }
-    const Memory& staging = device.impl()->staging();
-    for (uint64_t at = 0; at < data.size(); at += kStagingBytes) {
-        const uint64_t bytes = std::min<uint64_t>(kStagingBytes, data.size() - at);
-        std::memcpy(staging.mapped, data.data() + at, bytes);
-        const VkBufferCopy region{.srcOffset = 0, .dstOffset = offset + at, .size = bytes};
-        device.impl()->run_once([&](VkCommandBuffer commands) {
-            vkCmdCopyBuffer(commands, staging.buffer.get(), memory.buffer.get(), 1, &region);
-        });
-    }
-}
-
-void download(Device& device, const Buffer& buffer, std::span<std::byte> data, uint64_t offset) {
-    const Memory& memory = checked(device, buffer, offset, data.size(), "download")->memory;
-    if (data.empty()) return;
-    if (memory.mapped) {
-        std::memcpy(data.data(), memory.mapped + offset, data.size());
-        return;
-    }
-    const Memory& staging = device.impl()->staging();
-    for (uint64_t at = 0; at < data.size(); at += kStagingBytes) {
-        const uint64_t bytes = std::min<uint64_t>(kStagingBytes, data.size() - at);
-        const VkBufferCopy region{.srcOffset = offset + at, .dstOffset = 0, .size = bytes};
-        device.impl()->run_once([&](VkCommandBuffer commands) {
-            vkCmdCopyBuffer(commands, memory.buffer.get(), staging.buffer.get(), 1, &region);
-        });
-        std::memcpy(data.data() + at, staging.mapped, bytes);
-    }
 }
 
 }  // namespace gnomon::gpu

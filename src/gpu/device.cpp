@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "gpu/limits.hpp"
+#include "gpu/recorder_impl.hpp"
 #include "gpu/vulkan.hpp"
 
 namespace gnomon::gpu {
@@ -60,9 +61,11 @@ Result explain(VkResult result) {
 }
 
 // Stages and accesses of all that gnomon runs on the device.
-constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+constexpr VkPipelineStageFlags2 kStages =
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
 constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
-constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
+constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
+                                  VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
 
 void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 to_stages, VkAccessFlags2 to_accesses) {
     const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -132,6 +135,8 @@ Device::Impl::Impl(const std::string& choice, bool validate)
     fence = create<OwnedFence>(device.get(), vkCreateFence, fence_info, "a fence");
 }
 
+Device::Impl::~Impl() = default;
+
 Commands Device::Impl::take_commands() {
     Commands commands;
     if (!idle_commands.empty()) {
@@ -153,6 +158,18 @@ Commands Device::Impl::take_commands() {
 
 void Device::Impl::put_back(Commands commands) { idle_commands.push_back(std::move(commands)); }
 
+std::unique_ptr<RecorderState> Device::Impl::take_state() {
+    if (idle_states.empty()) return std::make_unique<RecorderState>(*this);
+    std::unique_ptr<RecorderState> state = std::move(idle_states.back());
+    idle_states.pop_back();
+    check(vkResetCommandPool(device.get(), state->commands.pool.get(), 0), "reset a command pool");
+    state->sets.reset();
+    state->timestamps.reset();
+    return state;
+}
+
+void Device::Impl::put_back(std::unique_ptr<RecorderState> state) { idle_states.push_back(std::move(state)); }
+
 void Device::Impl::run_once(const std::function<void(VkCommandBuffer)>& record) {
     Commands commands = take_commands();
     const VkCommandBufferBeginInfo begin_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -168,6 +185,7 @@ void Device::Impl::run_once(const std::function<void(VkCommandBuffer)>& record) 
 
 double Device::Impl::submit_and_wait(VkCommandBuffer commands) {
     throw_new_messages();  // what was recorded wrongly must not run
+    ++submissions;
     const VkCommandBufferSubmitInfo buffer_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                                 .commandBuffer = commands};
     const VkSubmitInfo2 info{
@@ -246,7 +264,10 @@ std::vector<StageTime> Device::stage_times() const { return impl_->stage_times; 
 
 double Device::longest_dispatch_seconds() const { return impl_->longest_dispatch_seconds; }
 
+uint64_t Device::submissions() const { return impl_->submissions; }
+
 void Device::reset_statistics() {
+    impl_->submissions = 0;
     impl_->longest_dispatch_seconds = 0.0;
     impl_->stage_times.clear();
     impl_->peak_bytes = impl_->live_bytes;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <gnomon/render.hpp>
 #include <map>
 #include <memory>
@@ -131,7 +132,8 @@ public:
 
     /// Bytes of buffers that may be allocated at one time; 0: no limit. Memory of buffers that are gone is kept for later ones
     /// while all of it is within the budget, or without one within half the largest heap, and given back where an allocation
-    /// would fail without it. Where upload and download have to stage, they use 32 MiB of host memory besides.
+    /// would fail without it. Where upload and download have to stage, they use 32 MiB of host memory for each recorder of one
+    /// time besides.
     void set_budget(uint64_t bytes);
     uint64_t budget_left() const;  ///< Of the budget; all that there is where there is none.
     uint64_t live_bytes() const;
@@ -146,7 +148,8 @@ public:
     std::vector<StageTime> stage_times() const;
     /// Of all that ran as one, a dispatch or a piece of one, since the last reset. Without timestamps an estimate.
     double longest_dispatch_seconds() const;
-    void reset_statistics();  ///< Stage times, longest dispatch, peak and largest bytes.
+    uint64_t submissions() const;  ///< Since the last reset; each is waited for.
+    void reset_statistics();       ///< Stage times, longest dispatch, submissions, peak and largest bytes.
 
     struct Impl;
     const std::shared_ptr<Impl>& impl() const { return impl_; }
@@ -155,8 +158,32 @@ private:
     std::shared_ptr<Impl> impl_;
 };
 
-/// Records stages into one command buffer, with a full memory barrier, a debug label and a pair of timestamps around each, and
-/// runs them. A Recorder may be used again after submit().
+/// What a Recorder's download() reads.
+class Download {
+public:
+    /// Errors: ErrorKind::internal before the recorder's submit(), and if that failed.
+    std::span<const std::byte> bytes() const;
+    /// The bytes as values of type T; a part of one at the end is left out.
+    template <class T>
+    std::vector<T> values() const {
+        const std::span<const std::byte> from = bytes();
+        std::vector<T> to(from.size() / sizeof(T));
+        if (!to.empty()) std::memcpy(to.data(), from.data(), to.size() * sizeof(T));
+        return to;
+    }
+
+    struct State;
+
+private:
+    friend class Recorder;
+    std::shared_ptr<State> state_;
+};
+
+/// Records stages into one command buffer, with debug labels and timestamps, and runs them. A command waits for those before it
+/// only where they wrote what it reads or writes, or read what it writes, of the same bytes of a buffer; readonly blocks,
+/// uniform blocks and texel buffers are only read. Others may overlap, and then the time counts to the stage that was recorded
+/// first: what a stage takes is from when all before it is done until it is done, and the times of all stages add up to what
+/// all took. A Recorder may be used again after submit().
 class Recorder {
 public:
     explicit Recorder(Device& device);
@@ -180,6 +207,27 @@ public:
     void dispatch_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
                         std::span<const std::byte> params, uint64_t groups);
 
+    /// As dispatch, with the numbers of workgroups (x, y, 1) that are in `arguments` at `offset`, a multiple of 4, when it is
+    /// run. Whoever writes them keeps to max_groups along x and y, and to most_groups in all: for more, submit() throws
+    /// ErrorKind::internal. The shader numbers its workgroups as in dispatch. Where most_groups may take longer than
+    /// dispatch_ms the host reads the arguments first, so most_groups should not be much more than there are. The arguments may
+    /// not be in a range that the shader may write.
+    template <class Params>
+    void dispatch_indirect(std::string_view stage, const Program& program, std::span<const Binding> bindings,
+                           const Params& params, const Buffer& arguments, uint64_t offset, uint64_t most_groups) {
+        dispatch_indirect_bytes(stage, program, bindings, std::as_bytes(std::span(&params, 1)), arguments, offset, most_groups);
+    }
+    void dispatch_indirect_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
+                                 std::span<const std::byte> params, const Buffer& arguments, uint64_t offset,
+                                 uint64_t most_groups);
+
+    /// Copies between the host and a buffer, in their order among the commands; many are served by one submission. `data` is
+    /// free when upload returns. On devices whose buffers are mapped a buffer that this recorder did not use yet is written at
+    /// once: other recorders may not have work that waits to use it. Copies are no stage. Errors: ErrorKind::internal for bytes
+    /// past the end.
+    void upload(const Buffer& buffer, std::span<const std::byte> data, uint64_t offset = 0);
+    Download download(const Buffer& buffer, uint64_t offset, uint64_t bytes);
+
     /// vkCmdFillBuffer; bytes 0: to the end. offset and bytes are multiples of 4.
     void fill(std::string_view stage, const Buffer& buffer, uint32_t value, uint64_t offset = 0, uint64_t bytes = 0);
     void copy(std::string_view stage, const Buffer& from, uint64_t from_offset, const Buffer& to, uint64_t to_offset,
@@ -188,8 +236,9 @@ public:
     /// Run what was recorded and wait. Errors: ErrorKind::device_lost, out_of_memory; internal for validation messages.
     void submit();
 
-private:
     struct Impl;
+
+private:
     std::unique_ptr<Impl> impl_;
 };
 

@@ -37,6 +37,11 @@ Pace::Piece Pace::next(const std::string& key, uint64_t left) const {
     return {groups, static_cast<double>(groups) * known->seconds_per_group, groups == safe && groups < left};
 }
 
+bool Pace::fits(const std::string& key, uint64_t groups) const {
+    const Known* known = find(key);
+    return known ? static_cast<double>(groups) * known->seconds_per_group <= piece_seconds_ : groups <= kFirstProbe;
+}
+
 uint64_t Pace::longest_row(const std::string& key) const {
     const Known* known = find(key);
     if (!known) return kProbeRow;

@@ -34,10 +34,15 @@ public:
     Piece next(const std::string& key, uint64_t left) const;
     /// Most workgroups of a row, so that a piece can be cut well from whole rows.
     uint64_t longest_row(const std::string& key) const;
+    /// Whether this many are expected to take no longer than a piece, as far as anything is known of them. The dispatch is not
+    /// cut.
+    bool fits(const std::string& key, uint64_t groups) const;
     void measured(const std::string& key, uint64_t groups, double seconds);
 
     /// The device may be given this much before it is waited for.
     double submission_seconds() const { return kPiecesPerSubmission * piece_seconds_; }
+    /// Commands of one stage may be measured together for this long.
+    double merged_seconds() const { return piece_seconds_ / 8; }
 
 private:
     static constexpr double kPiecesPerSubmission = 2.5;

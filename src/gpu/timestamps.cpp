@@ -31,9 +31,10 @@ void Timestamps::record(VkCommandBuffer commands) {
     ++count_;
 }
 
-std::vector<double> Timestamps::seconds_between_pairs() const {
+std::vector<double> Timestamps::seconds_between() const {
+    std::vector<double> seconds(count_ > 0 ? count_ - 1 : 0, 0.0);
+    if (!measured_) return seconds;
     std::vector<uint64_t> ticks(count_);
-    if (!measured_) return std::vector<double>(count_ / 2, 0.0);
     for (size_t first = 0; first < count_; first += kPoolQueries) {
         const size_t count = std::min<size_t>(kPoolQueries, count_ - first);
         check(vkGetQueryPoolResults(device_, pools_[first / kPoolQueries].get(), 0, static_cast<uint32_t>(count),
@@ -41,9 +42,8 @@ std::vector<double> Timestamps::seconds_between_pairs() const {
                                     VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
               "read timestamps");
     }
-    std::vector<double> seconds(count_ / 2);
     for (size_t i = 0; i < seconds.size(); ++i) {
-        seconds[i] = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & mask_) * seconds_per_tick_;
+        seconds[i] = static_cast<double>((ticks[i + 1] - ticks[i]) & mask_) * seconds_per_tick_;
     }
     return seconds;
 }

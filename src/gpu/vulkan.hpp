@@ -96,13 +96,19 @@ struct DestroyDevice {
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
 };
 
+struct RecorderState;
+
 struct Device::Impl {
     Impl(const std::string& choice, bool validate);
+    ~Impl();
 
     /// A command buffer, reset; the caller lends it and puts it back. None is freed before the device is: the validation layer
     /// of 1.3.239 drops the labels of a freed one in a thread of its own, without its lock (its issue 5172).
     Commands take_commands();
     void put_back(Commands commands);
+    /// What a recorder needs; lent and put back in the same way.
+    std::unique_ptr<RecorderState> take_state();
+    void put_back(std::unique_ptr<RecorderState> state);
     /// Record one command buffer, run it and wait.
     void run_once(const std::function<void(VkCommandBuffer)>& record);
     /// Run an ended command buffer and wait. Errors as Recorder::submit.
@@ -118,8 +124,6 @@ struct Device::Impl {
     /// Bytes of device memory that buffers may take together with what is kept for later ones.
     uint64_t most_held_bytes() const;
     void release_memory(uint64_t down_to);  ///< Of each pool.
-    /// kStagingBytes of mapped host memory, made at first use.
-    const Memory& staging();
 
     void add_live(const std::string& name, uint64_t bytes);
     void remove_live(const std::string& name, uint64_t bytes);
@@ -138,7 +142,7 @@ struct Device::Impl {
     OwnedFence fence;
     std::vector<Commands> idle_commands;
     std::map<std::pair<uint32_t, bool>, MemoryPool> pools;  ///< By memory type and whether they are mapped.
-    Memory staging_memory;
+    std::vector<std::unique_ptr<RecorderState>> idle_states;
 
     size_t messages_thrown = 0;
     uint64_t budget = 0;
@@ -147,6 +151,7 @@ struct Device::Impl {
     std::map<std::string, uint64_t> live_by_name;
     std::map<std::string, uint64_t> largest_by_name;
     std::vector<StageTime> stage_times;
+    uint64_t submissions = 0;
     double longest_dispatch_seconds = 0.0;
     Pace pace{0.0};
 };
