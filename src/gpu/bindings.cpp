@@ -3,6 +3,8 @@
 #include "gpu/bindings.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace gnomon::gpu {
 
@@ -28,6 +30,34 @@ Buffer::Impl& checked_buffer(std::string_view stage, const Device::Impl& device,
     if (!buffer) fail_stage(stage, name + " is an empty buffer");
     if (buffer.impl()->device.get() != &device) fail_stage(stage, name + " is a buffer of another device");
     return *buffer.impl();
+}
+
+const std::shared_ptr<Buffer::Impl>& checked_transfer(const Device::Impl& device, const Buffer& buffer, uint64_t offset,
+                                                      uint64_t bytes, const char* what) {
+    const std::shared_ptr<Buffer::Impl>& impl = buffer.impl();
+    const std::string hint = "fix the code that calls it";
+    if (!impl) throw Error(ErrorKind::internal, std::string(what) + " of an empty buffer", "", hint);
+    if (impl->device.get() != &device) {
+        throw Error(ErrorKind::internal, std::string(what) + " on another device", "buffer " + impl->name, hint);
+    }
+    if (offset > impl->bytes || bytes > impl->bytes - offset) {
+        throw Error(ErrorKind::internal,
+                    std::string(what) + " of " + std::to_string(bytes) + " bytes at " + std::to_string(offset) +
+                        " passes the end at " + std::to_string(impl->bytes),
+                    "buffer " + impl->name, hint);
+    }
+    return impl;
+}
+
+Grid checked_arguments(std::string_view stage, std::span<const std::byte> arguments, uint64_t most_groups) {
+    std::array<uint32_t, 3> groups{};
+    std::memcpy(groups.data(), arguments.data(), sizeof(groups));
+    const auto [x, y, z] = groups;
+    if (z != 1 || uint64_t{x} * y > most_groups) {
+        fail_stage(stage, "indirect arguments " + std::to_string(x) + " x " + std::to_string(y) + " x " + std::to_string(z) +
+                              ", which should be at most " + std::to_string(most_groups) + " workgroups in x and y");
+    }
+    return {x, y};
 }
 
 namespace {
@@ -78,7 +108,11 @@ Descriptor block_descriptor(std::string_view stage, const std::string& name, con
         fail_stage(stage,
                    name + " has " + std::to_string(bytes) + " bytes, the shader's block " + std::to_string(resource.min_bytes));
     }
-    return {.resource = &resource, .buffer = {buffer.memory.buffer.get(), binding.offset, bytes}};
+    return {.resource = &resource,
+            .owner = &buffer,
+            .offset = binding.offset,
+            .bytes = bytes,
+            .buffer = {buffer.memory.buffer.get(), binding.offset, bytes}};
 }
 
 Descriptor texel_descriptor(std::string_view stage, const std::string& name, const Resource& resource, const Binding& binding,
@@ -99,7 +133,11 @@ Descriptor texel_descriptor(std::string_view stage, const std::string& name, con
         fail_stage(stage, name + " has " + std::to_string(bytes / format.bytes) + " texels, the device binds at most " +
                               std::to_string(limits.max_texels) + " (process it in bands)");
     }
-    return {.resource = &resource, .view = buffer.view(format.format, binding.offset, bytes)};
+    return {.resource = &resource,
+            .owner = &buffer,
+            .offset = binding.offset,
+            .bytes = bytes,
+            .view = buffer.view(format.format, binding.offset, bytes)};
 }
 
 // Every resource once; the error names what is wrong.
@@ -122,6 +160,21 @@ void check_all_bound(std::string_view stage, const Reflection& reflection, std::
     }
 }
 
+// A compiler may take two resources for different memory, and a load through one for independent of a store through the other.
+void check_no_aliases(std::string_view stage, const std::vector<Descriptor>& descriptors) {
+    for (size_t i = 0; i < descriptors.size(); ++i) {
+        for (size_t j = 0; j < i; ++j) {
+            const Descriptor& a = descriptors[j];
+            const Descriptor& b = descriptors[i];
+            const bool overlap = a.owner == b.owner && a.offset < b.offset + b.bytes && b.offset < a.offset + a.bytes;
+            if (!overlap || !(a.resource->writable || b.resource->writable)) continue;
+            fail_stage(stage, in_quotes(a.resource->name) + " and " + in_quotes(b.resource->name) + " are ranges of buffer " +
+                                  a.owner->name + " that overlap, and " +
+                                  in_quotes((a.resource->writable ? a : b).resource->name) + " may be written");
+        }
+    }
+}
+
 }  // namespace
 
 std::vector<Descriptor> bind_resources(std::string_view stage, const Program::Impl& program,
@@ -138,6 +191,7 @@ std::vector<Descriptor> bind_resources(std::string_view stage, const Program::Im
                                     : texel_descriptor(stage, name, resource, binding, buffer));
     }
     check_all_bound(stage, program.reflection, bindings);
+    check_no_aliases(stage, descriptors);
     return descriptors;
 }
 

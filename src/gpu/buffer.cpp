@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Device memory: allocation within a budget, texel views, copies from and to the host.
+// Device memory: allocation within a budget, texel views.
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <cstring>
 
 #include "gpu/vulkan.hpp"
 
@@ -34,23 +33,6 @@ Error memory_error(const Device::Impl& device, const std::string& name, uint64_t
                  format_bytes(device.live_bytes) + " in use" + device.describe_live(), hint);
 }
 
-const std::shared_ptr<Buffer::Impl>& checked(Device& device, const Buffer& buffer, uint64_t offset, uint64_t bytes,
-                                             const char* what) {
-    const std::shared_ptr<Buffer::Impl>& impl = buffer.impl();
-    const std::string hint = "fix the code that calls it";
-    if (!impl) throw Error(ErrorKind::internal, std::string(what) + " of an empty buffer", "", hint);
-    if (impl->device != device.impl()) {
-        throw Error(ErrorKind::internal, std::string(what) + " on another device", "buffer " + impl->name, hint);
-    }
-    if (offset > impl->bytes || bytes > impl->bytes - offset) {
-        throw Error(ErrorKind::internal,
-                    std::string(what) + " of " + std::to_string(bytes) + " bytes at " + std::to_string(offset) +
-                        " passes the end at " + std::to_string(impl->bytes),
-                    "buffer " + impl->name, hint);
-    }
-    return impl;
-}
-
 }  // namespace
 
 std::string format_bytes(uint64_t bytes) {
@@ -76,8 +58,14 @@ std::string Device::Impl::describe_live() const {
     return text;
 }
 
+uint64_t Device::Impl::most_held_bytes() const { return budget > 0 ? budget : limits.heap_bytes / 2; }
+
+void Device::Impl::release_memory(uint64_t down_to) {
+    for (auto& [type, pool] : pools) pool.release(down_to);
+}
+
 Memory Device::Impl::make_memory(const std::string& name, uint64_t bytes, VkBufferUsageFlags usage,
-                                 std::span<const VkMemoryPropertyFlags> preferences) {
+                                 std::span<const VkMemoryPropertyFlags> preferences, bool map) {
     const VkBufferCreateInfo buffer_info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = bytes, .usage = usage};
     Memory made;
     made.buffer = create<OwnedBuffer>(device.get(), vkCreateBuffer, buffer_info, "a buffer", name);
@@ -89,34 +77,21 @@ Memory Device::Impl::make_memory(const std::string& name, uint64_t bytes, VkBuff
     }
     if (!type)
         throw Error(ErrorKind::no_device, "the device has no memory type for buffers", "buffer " + name, "update the driver");
-    const VkMemoryAllocateInfo memory_info{
-        .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = requirements.size, .memoryTypeIndex = *type};
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    const VkResult result = vkAllocateMemory(device.get(), &memory_info, nullptr, &memory);
-    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        throw memory_error(*this, name, bytes, "the driver has no more", "use a lower --memory-budget");
+    MemoryPool& pool = pools.try_emplace({*type, map}, device.get(), *type, map, max_allocation_bytes).first->second;
+    const auto take = [&] { return pool.take(requirements.size, requirements.alignment, most_held_bytes(), made.piece); };
+    VkResult result = take();
+    const auto is_out = [&] { return result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY; };
+    if (is_out()) {
+        release_memory(0);
+        result = take();
     }
+    if (is_out()) throw memory_error(*this, name, bytes, "the driver has no more", "use a lower --memory-budget");
     check(result, "allocate memory", "buffer " + name);
-    made.memory = OwnedMemory(device.get(), memory);
-    check(vkBindBufferMemory(device.get(), made.buffer.get(), memory, 0), "bind memory", "buffer " + name);
+    check(vkBindBufferMemory(device.get(), made.buffer.get(), made.piece.memory(), made.piece.offset()), "bind memory",
+          "buffer " + name);
+    made.mapped = made.piece.mapped();
     set_object_name(VK_OBJECT_TYPE_BUFFER, reinterpret_cast<uint64_t>(made.buffer.get()), name);
     return made;
-}
-
-const Memory& Device::Impl::staging() {
-    if (staging_memory.mapped) return staging_memory;
-    constexpr VkMemoryPropertyFlags kCoherent = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    const std::array preferences{kHostReadable, kCoherent};
-    staging_memory =
-        make_memory("staging", kStagingBytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT, preferences);
-    map(staging_memory);
-    return staging_memory;
-}
-
-void Device::Impl::map(Memory& made) {
-    void* mapped = nullptr;
-    check(vkMapMemory(device.get(), made.memory.get(), 0, VK_WHOLE_SIZE, 0, &mapped), "map memory");
-    made.mapped = static_cast<std::byte*>(mapped);
 }
 
 Buffer::Buffer() = default;
@@ -160,48 +135,11 @@ Buffer Device::allocate(const std::string& name, uint64_t bytes) {
     buffer.impl_->name = name;
     buffer.impl_->capacity = (bytes + kGranularity - 1) / kGranularity * kGranularity;
     constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    const std::array preferences{impl_->map_buffers ? kLocal | kHostReadable : kLocal};
-    buffer.impl_->memory = impl_->make_memory(name, buffer.impl_->capacity, kUsage, preferences);
-    if (impl_->map_buffers) impl_->map(buffer.impl_->memory);
+    const std::array preferences{impl_->limits.mapped ? kLocal | kHostReadable : kLocal};
+    buffer.impl_->memory = impl_->make_memory(name, buffer.impl_->capacity, kUsage, preferences, impl_->limits.mapped);
     buffer.impl_->bytes = bytes;
     impl_->add_live(name, bytes);
     return buffer;
-}
-
-void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset) {
-    const Memory& memory = checked(device, buffer, offset, data.size(), "upload")->memory;
-    if (data.empty()) return;
-    if (memory.mapped) {
-        std::memcpy(memory.mapped + offset, data.data(), data.size());
-        return;
-    }
-    const Memory& staging = device.impl()->staging();
-    for (uint64_t at = 0; at < data.size(); at += kStagingBytes) {
-        const uint64_t bytes = std::min<uint64_t>(kStagingBytes, data.size() - at);
-        std::memcpy(staging.mapped, data.data() + at, bytes);
-        const VkBufferCopy region{.srcOffset = 0, .dstOffset = offset + at, .size = bytes};
-        device.impl()->run_once([&](VkCommandBuffer commands) {
-            vkCmdCopyBuffer(commands, staging.buffer.get(), memory.buffer.get(), 1, &region);
-        });
-    }
-}
-
-void download(Device& device, const Buffer& buffer, std::span<std::byte> data, uint64_t offset) {
-    const Memory& memory = checked(device, buffer, offset, data.size(), "download")->memory;
-    if (data.empty()) return;
-    if (memory.mapped) {
-        std::memcpy(data.data(), memory.mapped + offset, data.size());
-        return;
-    }
-    const Memory& staging = device.impl()->staging();
-    for (uint64_t at = 0; at < data.size(); at += kStagingBytes) {
-        const uint64_t bytes = std::min<uint64_t>(kStagingBytes, data.size() - at);
-        const VkBufferCopy region{.srcOffset = offset + at, .dstOffset = 0, .size = bytes};
-        device.impl()->run_once([&](VkCommandBuffer commands) {
-            vkCmdCopyBuffer(commands, memory.buffer.get(), staging.buffer.get(), 1, &region);
-        });
-        std::memcpy(data.data() + at, staging.mapped, bytes);
-    }
 }
 
 }  // namespace gnomon::gpu

@@ -65,8 +65,9 @@ VkDescriptorSet DescriptorSets::make(VkDescriptorSetLayout layout, const std::ve
 }
 
 void DescriptorSets::reset() {
-    for (const OwnedDescriptorPool& pool : pools_)
-        check(vkResetDescriptorPool(device_, pool.get(), 0), "reset a descriptor pool");
+    for (size_t i = 0; i < pools_.size() && i <= current_; ++i) {
+        check(vkResetDescriptorPool(device_, pools_[i].get(), 0), "reset a descriptor pool");
+    }
     current_ = 0;
 }
 

@@ -9,6 +9,9 @@ namespace gnomon::gpu {
 /// What one resource of a shader is bound to: a range of a buffer, or a view of one.
 struct Descriptor {
     const Resource* resource = nullptr;
+    const Buffer::Impl* owner = nullptr;
+    uint64_t offset = 0;
+    uint64_t bytes = 0;
     VkDescriptorBufferInfo buffer{};
     VkBufferView view = VK_NULL_HANDLE;
 };

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The logical device: its queue, its limits, running command buffers, statistics.
 #include <algorithm>
+#include <chrono>
+#include <cstdlib>
 #include <limits>
 
+#include "gpu/limits.hpp"
+#include "gpu/recorder_impl.hpp"
 #include "gpu/vulkan.hpp"
 
 namespace gnomon::gpu {
@@ -10,11 +14,16 @@ namespace {
 
 VkDevice create_device(const Candidate& candidate) {
     VkPhysicalDeviceVulkan13Features features13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES,
+                                                .subgroupSizeControl = candidate.subgroup_size_control,
                                                 .computeFullSubgroups = VK_TRUE,
                                                 .synchronization2 = VK_TRUE,
                                                 .maintenance4 = VK_TRUE};
     const VkPhysicalDeviceVulkan12Features features12{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &features13, .scalarBlockLayout = VK_TRUE};
+    VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR control_flow{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR,
+        .shaderSubgroupUniformControlFlow = VK_TRUE};
+    if (candidate.uniform_control_flow) features13.pNext = &control_flow;
     const float priority = 1.0f;
     const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                         .queueFamilyIndex = candidate.queue_family,
@@ -23,7 +32,9 @@ VkDevice create_device(const Candidate& candidate) {
     const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                   .pNext = &features12,
                                   .queueCreateInfoCount = 1,
-                                  .pQueueCreateInfos = &queue};
+                                  .pQueueCreateInfos = &queue,
+                                  .enabledExtensionCount = static_cast<uint32_t>(candidate.extensions.size()),
+                                  .ppEnabledExtensionNames = candidate.extensions.data()};
     VkDevice device = VK_NULL_HANDLE;
     check(vkCreateDevice(candidate.physical, &info, nullptr, &device), "open the device", candidate.description.name);
     return device;
@@ -50,9 +61,11 @@ Result explain(VkResult result) {
 }
 
 // Stages and accesses of all that gnomon runs on the device.
-constexpr VkPipelineStageFlags2 kStages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+constexpr VkPipelineStageFlags2 kStages =
+    VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
 constexpr VkAccessFlags2 kWrites = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
-constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT;
+constexpr VkAccessFlags2 kReads = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_UNIFORM_READ_BIT | VK_ACCESS_2_TRANSFER_READ_BIT |
+                                  VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT;
 
 void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 to_stages, VkAccessFlags2 to_accesses) {
     const VkMemoryBarrier2 barrier{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
@@ -89,11 +102,10 @@ Device::Impl::Impl(const std::string& choice, bool validate)
     VkPhysicalDeviceMaintenance4Properties maintenance4{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
     VkPhysicalDeviceMaintenance3Properties maintenance3{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
                                                         .pNext = &maintenance4};
-    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
-                                                .pNext = &maintenance3};
-    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &subgroup};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &maintenance3};
     vkGetPhysicalDeviceProperties2(candidate.physical, &properties);
     vulkan_limits = properties.properties.limits;
+    max_allocation_bytes = maintenance3.maxMemoryAllocationSize;
     limits = {.heap_bytes = candidate.description.heap_bytes,
               .max_buffer_bytes = std::min(maintenance3.maxMemoryAllocationSize, maintenance4.maxBufferSize),
               .max_storage_range = vulkan_limits.maxStorageBufferRange,
@@ -101,7 +113,10 @@ Device::Impl::Impl(const std::string& choice, bool validate)
               .max_texels = vulkan_limits.maxTexelBufferElements,
               .texel_alignment = vulkan_limits.minTexelBufferOffsetAlignment,
               .max_groups = std::min(vulkan_limits.maxComputeWorkGroupCount[0], vulkan_limits.maxComputeWorkGroupCount[1]),
-              .subgroup_size = subgroup.subgroupSize,
+              .subgroup_size = candidate.subgroup.size,
+              .storage_buffers = vulkan_limits.maxPerStageDescriptorStorageBuffers,
+              .push_constant_bytes = vulkan_limits.maxPushConstantsSize,
+              .timestamps = candidate.timestamp_bits > 0,
               .is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
 
     // Cached, because the host reads results: uncached device memory behind a bus is read far slower than it is copied. And in
@@ -111,12 +126,16 @@ Device::Impl::Impl(const std::string& choice, bool validate)
     for (uint32_t i = 0; i < memory_properties.memoryTypeCount; ++i) {
         const VkMemoryType& type = memory_properties.memoryTypes[i];
         const bool large = memory_properties.memoryHeaps[type.heapIndex].size == limits.heap_bytes;
-        if (large && (type.propertyFlags & kMappable) == kMappable) map_buffers = true;
+        if (large && (type.propertyFlags & kMappable) == kMappable) limits.mapped = true;
     }
+    if (const char* lower = std::getenv("GNOMON_LIMITS")) limits = lower_limits(limits, lower);
+    pace = Pace(1e-3 * limits.dispatch_ms);
 
     const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     fence = create<OwnedFence>(device.get(), vkCreateFence, fence_info, "a fence");
 }
+
+Device::Impl::~Impl() = default;
 
 Commands Device::Impl::take_commands() {
     Commands commands;
@@ -139,6 +158,18 @@ Commands Device::Impl::take_commands() {
 
 void Device::Impl::put_back(Commands commands) { idle_commands.push_back(std::move(commands)); }
 
+std::unique_ptr<RecorderState> Device::Impl::take_state() {
+    if (idle_states.empty()) return std::make_unique<RecorderState>(*this);
+    std::unique_ptr<RecorderState> state = std::move(idle_states.back());
+    idle_states.pop_back();
+    check(vkResetCommandPool(device.get(), state->commands.pool.get(), 0), "reset a command pool");
+    state->sets.reset();
+    state->timestamps.reset();
+    return state;
+}
+
+void Device::Impl::put_back(std::unique_ptr<RecorderState> state) { idle_states.push_back(std::move(state)); }
+
 void Device::Impl::run_once(const std::function<void(VkCommandBuffer)>& record) {
     Commands commands = take_commands();
     const VkCommandBufferBeginInfo begin_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -152,18 +183,22 @@ void Device::Impl::run_once(const std::function<void(VkCommandBuffer)>& record) 
     put_back(std::move(commands));
 }
 
-void Device::Impl::submit_and_wait(VkCommandBuffer commands) {
+double Device::Impl::submit_and_wait(VkCommandBuffer commands) {
     throw_new_messages();  // what was recorded wrongly must not run
+    ++submissions;
     const VkCommandBufferSubmitInfo buffer_info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                                 .commandBuffer = commands};
     const VkSubmitInfo2 info{
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &buffer_info};
+    const auto start = std::chrono::steady_clock::now();
     check(vkQueueSubmit2(queue, 1, &info, fence.get()), "submit work");
     const VkFence wait_for = fence.get();
     check(vkWaitForFences(device.get(), 1, &wait_for, VK_TRUE, std::numeric_limits<uint64_t>::max()),
           "wait for submitted work");
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     check(vkResetFences(device.get(), 1, &wait_for), "reset a fence");
     throw_new_messages();
+    return seconds.count();
 }
 
 void Device::Impl::throw_new_messages() {
@@ -197,12 +232,12 @@ void Device::Impl::remove_live(const std::string& name, uint64_t bytes) {
     if (found->second == 0) live_by_name.erase(found);
 }
 
-void Device::Impl::add_stage_time(const std::string& stage, double seconds) {
+void Device::Impl::add_stage_time(const std::string& stage, double seconds, uint64_t dispatches) {
     auto found =
         std::find_if(stage_times.begin(), stage_times.end(), [&](const StageTime& time) { return time.name == stage; });
     if (found == stage_times.end()) found = stage_times.insert(found, {.name = stage});
     found->seconds += seconds;
-    found->dispatches += 1;
+    found->dispatches += dispatches;
 }
 
 Device::Device(const std::string& choice, bool validate) : impl_(std::make_shared<Impl>(choice, validate)) {}
@@ -210,9 +245,13 @@ Device::~Device() = default;
 
 const DeviceDescription& Device::description() const { return impl_->candidate.description; }
 const Limits& Device::limits() const { return impl_->limits; }
+bool Device::has_timestamps() const { return impl_->limits.timestamps; }
 const std::vector<std::string>& Device::validation_messages() const { return impl_->instance.messages; }
 
-void Device::set_budget(uint64_t bytes) { impl_->budget = bytes; }
+void Device::set_budget(uint64_t bytes) {
+    impl_->budget = bytes;
+    impl_->release_memory(impl_->most_held_bytes());
+}
 uint64_t Device::budget_left() const {
     const uint64_t budget = impl_->budget > 0 ? impl_->budget : impl_->limits.heap_bytes;
     return budget - std::min(budget, impl_->live_bytes);
@@ -223,7 +262,13 @@ std::map<std::string, uint64_t> Device::largest_bytes() const { return impl_->la
 
 std::vector<StageTime> Device::stage_times() const { return impl_->stage_times; }
 
+double Device::longest_dispatch_seconds() const { return impl_->longest_dispatch_seconds; }
+
+uint64_t Device::submissions() const { return impl_->submissions; }
+
 void Device::reset_statistics() {
+    impl_->submissions = 0;
+    impl_->longest_dispatch_seconds = 0.0;
     impl_->stage_times.clear();
     impl_->peak_bytes = impl_->live_bytes;
     impl_->largest_by_name.clear();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <gnomon/render.hpp>
 #include <map>
 #include <memory>
@@ -28,8 +29,13 @@ struct Limits {
     bool storage_reads = false;      ///< Stages read through storage buffers, not through texel buffers.
     uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
-    uint32_t subgroup_size = 1;
-    uint32_t crew = 8;  ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
+    uint32_t subgroup_size = 1;      ///< Of all pipelines; a device that cannot be asked for one size may use others.
+    uint32_t crew = 8;               ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
+    uint32_t storage_buffers = 4;    ///< Of one shader.
+    uint32_t push_constant_bytes = 128;
+    uint32_t dispatch_ms = 200;  ///< Milliseconds; what is expected to take longer is cut into pieces.
+    bool timestamps = false;     ///< Else stages have no seconds.
+    bool mapped = false;         ///< The host sees buffers; else uploads and downloads are staged.
     bool is_cpu = false;
 
     /// Elements of so many bytes that a stage can read through one binding.
@@ -38,8 +44,8 @@ struct Limits {
 
 class Device;
 
-/// Device memory with a name. Move-only; freed when it goes, or, if recorded work still needs it, when that work is done. May
-/// outlive its Device object. An empty Buffer has no device.
+/// Device memory with a name, of a pool that the device keeps. Move-only; given back when it goes, or, if recorded work still
+/// needs it, when that work is done. May outlive its Device object. An empty Buffer has no device.
 class Buffer {
 public:
     Buffer();
@@ -109,6 +115,10 @@ class Device {
 public:
     /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and
     /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
+    /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if the device had no more:
+    /// "texels=65536,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,buffer=67108864,dispatch_ms=1,
+    /// timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's
+    /// own.
     Device(const std::string& choice, bool validate);
     ~Device();
     Device(const Device&) = delete;
@@ -116,14 +126,18 @@ public:
 
     const DeviceDescription& description() const;
     const Limits& limits() const;
+    /// Whether stage times are measured; else their seconds are 0.
+    bool has_timestamps() const;
     const std::vector<std::string>& validation_messages() const;
 
     /// Uninitialised memory, usable for storage, texel, uniform and transfer. bytes 0 gives the smallest buffer.
     /// Errors: ErrorKind::out_of_memory naming the buffer and its size; also when the budget would be passed.
     Buffer allocate(const std::string& name, uint64_t bytes);
 
-    /// Bytes of buffers that may be allocated at one time; 0: no limit. Where upload and download have to stage, they use 32
-    /// MiB of host memory besides.
+    /// Bytes of buffers that may be allocated at one time; 0: no limit. Memory of buffers that are gone is kept for later ones
+    /// while all of it is within the budget, or without one within half the largest heap, and given back where an allocation
+    /// would fail without it. Where upload and download have to stage, they use 32 MiB of host memory for each recorder of one
+    /// time besides.
     void set_budget(uint64_t bytes);
     uint64_t budget_left() const;  ///< Of the budget; all that there is where there is none.
     uint64_t live_bytes() const;
@@ -136,7 +150,10 @@ public:
 
     /// Stage times since the last reset, in order of first use.
     std::vector<StageTime> stage_times() const;
-    void reset_statistics();  ///< Stage times, peak and largest bytes.
+    /// Of all that ran as one, a dispatch or a piece of one, since the last reset. Without timestamps an estimate.
+    double longest_dispatch_seconds() const;
+    uint64_t submissions() const;  ///< Since the last reset; each is waited for.
+    void reset_statistics();       ///< Stage times, longest dispatch, submissions, peak and largest bytes.
 
     struct Impl;
     const std::shared_ptr<Impl>& impl() const { return impl_; }
@@ -145,8 +162,32 @@ private:
     std::shared_ptr<Impl> impl_;
 };
 
-/// Records stages into one command buffer, with a full memory barrier, a debug label and a pair of timestamps around each, and
-/// runs them. A Recorder may be used again after submit().
+/// What a Recorder's download() reads.
+class Download {
+public:
+    /// Errors: ErrorKind::internal before the recorder's submit(), and if that failed.
+    std::span<const std::byte> bytes() const;
+    /// The bytes as values of type T; a part of one at the end is left out.
+    template <class T>
+    std::vector<T> values() const {
+        const std::span<const std::byte> from = bytes();
+        std::vector<T> to(from.size() / sizeof(T));
+        if (!to.empty()) std::memcpy(to.data(), from.data(), to.size() * sizeof(T));
+        return to;
+    }
+
+    struct State;
+
+private:
+    friend class Recorder;
+    std::shared_ptr<State> state_;
+};
+
+/// Records stages into one command buffer, with debug labels and timestamps, and runs them. A command waits for those before it
+/// only where they wrote what it reads or writes, or read what it writes, of the same bytes of a buffer; readonly blocks,
+/// uniform blocks and texel buffers are only read. Others may overlap, and then the time counts to the stage that was recorded
+/// first: what a stage takes is from when all before it is done until it is done, and the times of all stages add up to what
+/// all took. A Recorder may be used again after submit().
 class Recorder {
 public:
     explicit Recorder(Device& device);
@@ -156,9 +197,12 @@ public:
 
     /// Run `groups` workgroups. They are spread over x and y (at most max_groups each), so the shader numbers them
     /// gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x and ignores those past the count that it gets in its
-    /// parameters. Every resource of the program must be bound by name, every binding must exist in it, ranges must be within
-    /// the limits and the size of params must equal the push-constant block's: else ErrorKind::internal. groups 0: checked, but
-    /// nothing is recorded.
+    /// parameters; the number of rows, gl_NumWorkGroups.y, means nothing to it. So that no device is stopped for working too
+    /// long at one thing, what may take more than dispatch_ms runs in pieces of whole rows, one after the other; what was
+    /// recorded before may have to run for that (and be waited for) while this is recorded. Every resource of the program must
+    /// be bound by name, every binding must exist in it, ranges must be within the limits and may overlap in one buffer only
+    /// where neither is of a storage block that may be written (all but readonly ones), and the size of params must equal the
+    /// push-constant block's: else ErrorKind::internal. groups 0: checked, but nothing is recorded.
     template <class Params>
     void dispatch(std::string_view stage, const Program& program, std::span<const Binding> bindings, const Params& params,
                   uint64_t groups) {
@@ -166,6 +210,27 @@ public:
     }
     void dispatch_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
                         std::span<const std::byte> params, uint64_t groups);
+
+    /// As dispatch, with the numbers of workgroups (x, y, 1) that are in `arguments` at `offset`, a multiple of 4, when it is
+    /// run. Whoever writes them keeps to max_groups along x and y, and to most_groups in all: for more, submit() throws
+    /// ErrorKind::internal. The shader numbers its workgroups as in dispatch. Where most_groups may take longer than
+    /// dispatch_ms the host reads the arguments first, so most_groups should not be much more than there are. The arguments may
+    /// not be in a range that the shader may write.
+    template <class Params>
+    void dispatch_indirect(std::string_view stage, const Program& program, std::span<const Binding> bindings,
+                           const Params& params, const Buffer& arguments, uint64_t offset, uint64_t most_groups) {
+        dispatch_indirect_bytes(stage, program, bindings, std::as_bytes(std::span(&params, 1)), arguments, offset, most_groups);
+    }
+    void dispatch_indirect_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
+                                 std::span<const std::byte> params, const Buffer& arguments, uint64_t offset,
+                                 uint64_t most_groups);
+
+    /// Copies between the host and a buffer, in their order among the commands; many are served by one submission. `data` is
+    /// free when upload returns. On devices whose buffers are mapped a buffer that this recorder did not use yet is written at
+    /// once: other recorders may not have work that waits to use it. Copies are no stage. Errors: ErrorKind::internal for bytes
+    /// past the end.
+    void upload(const Buffer& buffer, std::span<const std::byte> data, uint64_t offset = 0);
+    Download download(const Buffer& buffer, uint64_t offset, uint64_t bytes);
 
     /// vkCmdFillBuffer; bytes 0: to the end. offset and bytes are multiples of 4.
     void fill(std::string_view stage, const Buffer& buffer, uint32_t value, uint64_t offset = 0, uint64_t bytes = 0);
@@ -175,8 +240,9 @@ public:
     /// Run what was recorded and wait. Errors: ErrorKind::device_lost, out_of_memory; internal for validation messages.
     void submit();
 
-private:
     struct Impl;
+
+private:
     std::unique_ptr<Impl> impl_;
 };
 

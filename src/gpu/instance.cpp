@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Vulkan instance, the validation layer's messages, and which device is used.
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <iterator>
@@ -11,6 +12,7 @@ namespace gnomon::gpu {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
+constexpr const char* kPortabilitySubset = "VK_KHR_portability_subset";  // Vulkan's headers name it for beta users only
 
 VKAPI_ATTR VkBool32 VKAPI_CALL collect_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* messages) {
@@ -27,14 +29,17 @@ bool has_validation_layer() {
                        [](const VkLayerProperties& layer) { return std::strcmp(layer.layerName, kValidationLayer) == 0; });
 }
 
-bool has_debug_utils() {
+std::vector<VkExtensionProperties> instance_extensions() {
     uint32_t count = 0;
     vkEnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vkEnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
-    return std::any_of(extensions.begin(), extensions.end(), [](const VkExtensionProperties& extension) {
-        return std::strcmp(extension.extensionName, VK_EXT_DEBUG_UTILS_EXTENSION_NAME) == 0;
-    });
+    return extensions;
+}
+
+bool has_extension(const std::vector<VkExtensionProperties>& extensions, const char* name) {
+    return std::any_of(extensions.begin(), extensions.end(),
+                       [&](const VkExtensionProperties& extension) { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
 template <class Function>
@@ -76,14 +81,42 @@ void find_queue(Candidate& candidate) {
     bool has_compute = false;
     for (uint32_t i = 0; i < count && candidate.timestamp_bits == 0; ++i) {
         if (!(families[i].queueFlags & VK_QUEUE_COMPUTE_BIT)) continue;
+        if (has_compute && families[i].timestampValidBits == 0) continue;
         has_compute = true;
         candidate.queue_family = i;
         candidate.timestamp_bits = families[i].timestampValidBits;
     }
-    if (!has_compute) {
-        candidate.description.missing.emplace_back("a compute queue");
-    } else if (candidate.timestamp_bits == 0) {
-        candidate.description.missing.emplace_back("timestamps on the compute queue");
+    if (!has_compute) candidate.description.missing.emplace_back("a compute queue");
+}
+
+// Of what the shaders and the parts into which buffers are bound need, Vulkan's own minima are enough.
+void find_missing_limits(const VkPhysicalDeviceLimits& limits, std::vector<std::string>& missing) {
+    constexpr uint64_t kTexels = 65536;
+    constexpr uint64_t kStorageRange = uint64_t{1} << 27;
+    constexpr uint64_t kStorageBuffers = 4;
+    constexpr uint64_t kTexelBuffers = 16;
+    constexpr uint64_t kPushConstantBytes = 128;
+    constexpr uint64_t kInvocations = 64;
+    constexpr uint64_t kGroups = 65535;
+    struct Need {
+        uint64_t has;
+        uint64_t least;
+        const char* what;
+    };
+    const std::array needs{
+        Need{limits.maxTexelBufferElements, kTexels, "texels in a buffer view"},
+        Need{limits.maxStorageBufferRange, kStorageRange, "bytes in a storage binding"},
+        Need{limits.maxPerStageDescriptorStorageBuffers, kStorageBuffers, "storage buffers"},
+        Need{limits.maxPerStageDescriptorSampledImages, kTexelBuffers, "texel buffers"},
+        Need{limits.maxPushConstantsSize, kPushConstantBytes, "bytes of push constants"},
+        Need{limits.maxComputeWorkGroupInvocations, kInvocations, "invocations in a workgroup"},
+        Need{limits.maxComputeWorkGroupSize[0], kInvocations, "invocations along x"},
+        Need{limits.maxComputeWorkGroupCount[0], kGroups, "workgroups along x"},
+        Need{limits.maxComputeWorkGroupCount[1], kGroups, "workgroups along y"},
+    };
+    for (const Need& need : needs) {
+        if (need.has >= need.least) continue;
+        missing.push_back(std::to_string(need.least) + " " + need.what + " (it has " + std::to_string(need.has) + ")");
     }
 }
 
@@ -98,6 +131,36 @@ void find_missing_features(Candidate& candidate) {
     if (!features13.computeFullSubgroups) missing.emplace_back("computeFullSubgroups");
     if (!features13.maintenance4) missing.emplace_back("maintenance4");
     if (!features13.synchronization2) missing.emplace_back("synchronization2");
+    candidate.subgroup_size_control = features13.subgroupSizeControl;
+}
+
+void find_subgroup_size(Candidate& candidate, const VkPhysicalDeviceSubgroupProperties& subgroup,
+                        const VkPhysicalDeviceSubgroupSizeControlProperties& control) {
+    const bool may_require =
+        candidate.subgroup_size_control && (control.requiredSubgroupSizeStages & VK_SHADER_STAGE_COMPUTE_BIT) != 0;
+    candidate.subgroup =
+        choose_subgroup_size(subgroup.subgroupSize, control.minSubgroupSize, control.maxSubgroupSize, may_require);
+    candidate.max_workgroup_subgroups = control.maxComputeWorkgroupSubgroups;
+}
+
+// What is used where the device offers it.
+void find_extensions(Candidate& candidate) {
+    uint32_t count = 0;
+    vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, nullptr);
+    std::vector<VkExtensionProperties> offered(count);
+    vkEnumerateDeviceExtensionProperties(candidate.physical, nullptr, &count, offered.data());
+    // A device that has it may be used only with it; of what it takes away nothing is used.
+    if (has_extension(offered, kPortabilitySubset)) candidate.extensions.push_back(kPortabilitySubset);
+    if (has_extension(offered, VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME)) {
+        VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR control_flow{
+            .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR};
+        VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &control_flow};
+        vkGetPhysicalDeviceFeatures2(candidate.physical, &features);
+        candidate.uniform_control_flow = control_flow.shaderSubgroupUniformControlFlow;
+        if (candidate.uniform_control_flow) {
+            candidate.extensions.push_back(VK_KHR_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_EXTENSION_NAME);
+        }
+    }
 }
 
 void find_missing_subgroup_operations(const VkPhysicalDeviceSubgroupProperties& subgroup, std::vector<std::string>& missing) {
@@ -106,8 +169,8 @@ void find_missing_subgroup_operations(const VkPhysicalDeviceSubgroupProperties& 
         return;
     }
     constexpr std::pair<VkSubgroupFeatureFlagBits, const char*> kRequired[] = {
-        {VK_SUBGROUP_FEATURE_BASIC_BIT, "basic"},     {VK_SUBGROUP_FEATURE_VOTE_BIT, "vote"},
-        {VK_SUBGROUP_FEATURE_BALLOT_BIT, "ballot"},   {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, "arithmetic"},
+        {VK_SUBGROUP_FEATURE_BASIC_BIT, "basic"},
+        {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, "arithmetic"},
         {VK_SUBGROUP_FEATURE_SHUFFLE_BIT, "shuffle"},
     };
     for (const auto& [bit, name] : kRequired) {
@@ -142,13 +205,19 @@ Candidate describe(VkPhysicalDevice physical, uint32_t index) {
         description.missing.push_back("Vulkan 1.3 (it has " + version_text(properties.apiVersion) + ")");
         return candidate;
     }
-    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceSubgroupSizeControlProperties control{
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_SIZE_CONTROL_PROPERTIES};
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES,
+                                                .pNext = &control};
     VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, .pNext = &subgroup};
     VkPhysicalDeviceProperties2 properties2{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical, &properties2);
     description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
     find_missing_features(candidate);
+    find_extensions(candidate);
     find_missing_subgroup_operations(subgroup, description.missing);
+    find_missing_limits(properties2.properties.limits, description.missing);
+    find_subgroup_size(candidate, subgroup, control);
     return candidate;
 }
 
@@ -177,10 +246,13 @@ Instance::Instance(bool validate) {
         throw Error(ErrorKind::no_device, std::string(kValidationLayer) + " is not installed", "validation",
                     "install it (Debian package vulkan-validationlayers) or run without validation");
     }
-    const bool debug_utils = has_debug_utils();
+    const std::vector<VkExtensionProperties> offered = instance_extensions();
+    const bool debug_utils = has_extension(offered, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     std::vector<const char*> layers;
     std::vector<const char*> extensions;
     if (debug_utils) extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    const bool portability = has_extension(offered, VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
+    if (portability) extensions.push_back(VK_KHR_PORTABILITY_ENUMERATION_EXTENSION_NAME);
     if (validate) {
         layers.push_back(kValidationLayer);
         extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
@@ -191,13 +263,15 @@ Instance::Instance(bool validate) {
                                              .pEnabledValidationFeatures = &synchronization};
     const VkApplicationInfo application{
         .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "gnomon", .apiVersion = VK_API_VERSION_1_3};
-    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                    .pNext = validate ? &validation : nullptr,
-                                    .pApplicationInfo = &application,
-                                    .enabledLayerCount = static_cast<uint32_t>(layers.size()),
-                                    .ppEnabledLayerNames = layers.data(),
-                                    .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
-                                    .ppEnabledExtensionNames = extensions.data()};
+    const VkInstanceCreateInfo info{
+        .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+        .pNext = validate ? &validation : nullptr,
+        .flags = portability ? VkInstanceCreateFlags{VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR} : 0,
+        .pApplicationInfo = &application,
+        .enabledLayerCount = static_cast<uint32_t>(layers.size()),
+        .ppEnabledLayerNames = layers.data(),
+        .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
+        .ppEnabledExtensionNames = extensions.data()};
     const VkResult result = vkCreateInstance(&info, nullptr, &handle);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {  // no driver on this machine
         handle = VK_NULL_HANDLE;
@@ -224,6 +298,12 @@ Instance::~Instance() {
         load<PFN_vkDestroyDebugUtilsMessengerEXT>(handle, "vkDestroyDebugUtilsMessengerEXT")(handle, messenger_, nullptr);
     }
     if (handle) vkDestroyInstance(handle, nullptr);
+}
+
+SubgroupSize choose_subgroup_size(uint32_t usual, uint32_t least, uint32_t most, bool may_require) {
+    constexpr uint32_t kMost = 64;
+    const bool large = usual > kMost && least <= kMost;
+    return {.size = may_require && large ? kMost : usual, .most = std::max(usual, most), .required = may_require};
 }
 
 std::vector<Candidate> find_candidates(const Instance& instance) {

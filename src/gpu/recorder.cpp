@@ -1,159 +1,186 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records commands with barriers, labels and timestamps, and runs them.
+// What may be recorded, checked.
 #include <algorithm>
+#include <array>
 
 #include "gpu/bindings.hpp"
-#include "gpu/timestamps.hpp"
-#include "gpu/vulkan.hpp"
+#include "gpu/recorder_impl.hpp"
 
 namespace gnomon::gpu {
+namespace {
 
-struct Recorder::Impl {
-    explicit Impl(const std::shared_ptr<Device::Impl>& owner);
-    ~Impl();
-    Impl(const Impl&) = delete;
-    Impl& operator=(const Impl&) = delete;
-
-    /// Add one command to the stage; record_command(commands) records it.
-    template <class Record>
-    void add(std::string_view stage, Record record_command);
-    void begin();
-    void reset();
-    /// The buffer's Impl, kept until the work is done. Errors: an empty buffer, another device's.
-    Buffer::Impl& use(std::string_view stage, const Buffer& buffer, const std::string& name);
-
-    std::shared_ptr<Device::Impl> device;
-    Commands commands;
-    bool recording = false;
-    DescriptorSets sets;
-    Timestamps timestamps;
-    std::vector<std::string> stages;  // of the commands recorded, in order
-    std::vector<std::shared_ptr<const void>> in_use;
+struct Job {
+    std::string pace_key;
+    std::vector<Descriptor> descriptors;
+    std::vector<Access> accesses;
 };
 
-Recorder::Impl::Impl(const std::shared_ptr<Device::Impl>& owner)
-    : device(owner), commands(owner->take_commands()), sets(*owner), timestamps(*owner) {}
-
-Recorder::Impl::~Impl() { device->put_back(std::move(commands)); }
-
-void Recorder::Impl::begin() {
-    if (recording) return;
-    const VkCommandBufferBeginInfo info{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                        .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    check(vkBeginCommandBuffer(commands.buffer, &info), "begin a command buffer");
-    recording = true;
-}
-
-template <class Record>
-void Recorder::Impl::add(std::string_view stage, Record record_command) {
-    begin();
-    const std::string& name = stages.emplace_back(stage);
-    const Instance& instance = device->instance;
-    if (instance.begin_label) {
-        const VkDebugUtilsLabelEXT label{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT, .pLabelName = name.c_str()};
-        instance.begin_label(commands.buffer, &label);
+// Errors: see Recorder::dispatch.
+Job checked_job(std::string_view stage, const Device::Impl& device, const Program& program, std::span<const Binding> bindings,
+                std::span<const std::byte> params) {
+    if (!program) fail_stage(stage, "the program is empty");
+    const Program::Impl& code = *program.impl();
+    if (code.device.get() != &device) fail_stage(stage, "program '" + code.name + "' is of another device");
+    if (params.size() != code.reflection.push_constant_bytes) {
+        fail_stage(stage, std::to_string(params.size()) + " bytes of parameters, the shader takes " +
+                              std::to_string(code.reflection.push_constant_bytes));
     }
-    record_barrier(commands.buffer);
-    timestamps.record(commands.buffer);
-    record_command(commands.buffer);
-    timestamps.record(commands.buffer);
-    if (instance.end_label) instance.end_label(commands.buffer);
+    Job job{std::string(stage) + " " + code.key, bind_resources(stage, code, bindings), {}};
+    for (const Descriptor& d : job.descriptors) {
+        job.accesses.push_back({d.owner, d.offset, d.offset + d.bytes, d.resource->writable});
+    }
+    return job;
 }
 
-void Recorder::Impl::reset() {
-    recording = false;
-    stages.clear();
-    timestamps.reset();
-    check(vkResetCommandPool(device->device.get(), commands.pool.get(), 0), "reset a command pool");
-    sets.reset();
-    in_use.clear();
+void check_groups(std::string_view stage, const Limits& limits, uint64_t groups) {
+    const uint64_t most = limits.max_groups;
+    if (groups <= most * most) return;
+    fail_stage(stage, std::to_string(groups) + " workgroups, of which the device runs at most " + std::to_string(most) +
+                          " by " + std::to_string(most));
 }
 
-Buffer::Impl& Recorder::Impl::use(std::string_view stage, const Buffer& buffer, const std::string& name) {
-    Buffer::Impl& impl = checked_buffer(stage, *device, buffer, name);
-    in_use.push_back(buffer.impl());
-    return impl;
+// Keeps what the job needs, and gives what records all of it but the dispatch itself.
+Recorder::Impl::Record bind_job(Recorder::Impl& impl, const Job& job, const Program& program, std::span<const Binding> bindings,
+                                std::span<const std::byte> params) {
+    const std::shared_ptr<Program::Impl>& code = program.impl();
+    impl.in_use.push_back(code);
+    for (const Binding& binding : bindings) impl.in_use.push_back(binding.buffer->impl());
+    const VkDescriptorSet set = impl.state->sets.make(code->set_layout.get(), job.descriptors);
+    return [&code, set, params](VkCommandBuffer commands) {
+        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, code->pipeline.get());
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, code->layout.get(), 0, 1, &set, 0, nullptr);
+        if (params.empty()) return;
+        vkCmdPushConstants(commands, code->layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0, static_cast<uint32_t>(params.size()),
+                           params.data());
+    };
 }
+
+void add_grid(Recorder::Impl& impl, std::string_view stage, const Job& job, const Grid& grid,
+              const Recorder::Impl::Record& bind) {
+    impl.add_pieces(stage, job.pace_key, grid, job.accesses, [&](VkCommandBuffer commands, uint32_t first_row, uint32_t rows) {
+        bind(commands);
+        vkCmdDispatchBase(commands, 0, first_row, 0, static_cast<uint32_t>(grid.x), rows, 1);
+    });
+}
+
+}  // namespace
 
 Recorder::Recorder(Device& device) : impl_(std::make_unique<Impl>(device.impl())) {}
 Recorder::~Recorder() = default;
 
 void Recorder::dispatch_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
                               std::span<const std::byte> params, uint64_t groups) {
-    if (!program) fail_stage(stage, "the program is empty");
-    const std::shared_ptr<Program::Impl>& code = program.impl();
-    if (code->device != impl_->device) fail_stage(stage, "program '" + code->name + "' is of another device");
-    const Reflection& reflection = code->reflection;
-    if (params.size() != reflection.push_constant_bytes) {
-        fail_stage(stage, std::to_string(params.size()) + " bytes of parameters, the shader takes " +
-                              std::to_string(reflection.push_constant_bytes));
-    }
-    const std::vector<Descriptor> descriptors = bind_resources(stage, *code, bindings);
+    const Device::Impl& device = *impl_->device;
+    const Job job = checked_job(stage, device, program, bindings, params);
     if (groups == 0) return;
-    const uint64_t max_groups = impl_->device->limits.max_groups;
-    // Rows of equal length: fewer than y groups run beyond the last.
-    const uint64_t y = (groups - 1) / max_groups + 1;
-    const uint64_t x = (groups - 1) / y + 1;
-    if (y > max_groups) {
-        fail_stage(stage, std::to_string(groups) + " workgroups, of which the device runs at most " +
-                              std::to_string(max_groups) + " by " + std::to_string(max_groups));
+    check_groups(stage, device.limits, groups);
+    const Impl::Record bind = bind_job(*impl_, job, program, bindings, params);
+    add_grid(*impl_, stage, job, spread_groups(groups, device.limits.max_groups, device.pace.longest_row(job.pace_key)), bind);
+}
+
+void Recorder::dispatch_indirect_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
+                                       std::span<const std::byte> params, const Buffer& arguments, uint64_t offset,
+                                       uint64_t most_groups) {
+    constexpr uint64_t kBytes = sizeof(VkDispatchIndirectCommand);
+    Device::Impl& device = *impl_->device;
+    Job job = checked_job(stage, device, program, bindings, params);
+    const Buffer::Impl& source = checked_buffer(stage, device, arguments, "the arguments' buffer");
+    const std::string name = "the arguments in buffer " + source.name;
+    checked_range(stage, name, offset, kBytes, source.bytes, sizeof(uint32_t));
+    for (const Descriptor& d : job.descriptors) {
+        const bool overlap = d.owner == &source && d.offset < offset + kBytes && offset < d.offset + d.bytes;
+        if (overlap && d.resource->writable)
+            fail_stage(stage, "'" + d.resource->name + "' overlaps " + name + " and may be written");
     }
-    impl_->in_use.push_back(code);
-    for (const Binding& binding : bindings) impl_->in_use.push_back(binding.buffer->impl());
-    const VkDescriptorSet set = impl_->sets.make(code->set_layout.get(), descriptors);
-    impl_->add(stage, [&](VkCommandBuffer commands) {
-        vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, code->pipeline.get());
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, code->layout.get(), 0, 1, &set, 0, nullptr);
-        if (!params.empty()) {
-            vkCmdPushConstants(commands, code->layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                               static_cast<uint32_t>(params.size()), params.data());
-        }
-        vkCmdDispatch(commands, static_cast<uint32_t>(x), static_cast<uint32_t>(y), 1);
-    });
+    check_groups(stage, device.limits, most_groups);
+    if (most_groups == 0) return;
+    const Impl::Record bind = bind_job(*impl_, job, program, bindings, params);
+    const double seconds = device.pace.next(job.pace_key, most_groups).seconds;
+    impl_->make_time(seconds);
+    const auto values = impl_->fetch_new(arguments.impl(), offset, kBytes);
+    if (device.pace.fits(job.pace_key, most_groups)) {
+        job.accesses.push_back({&source, offset, offset + kBytes, false});
+        impl_->add({std::string(stage), job.pace_key, most_groups, seconds, 1, values}, job.accesses,
+                   [&](VkCommandBuffer commands) {
+                       bind(commands);
+                       vkCmdDispatchIndirect(commands, source.memory.buffer.get(), offset);
+                   });
+        return;
+    }
+    // Only what the host knows can be cut.
+    impl_->flush();
+    const Grid grid = checked_arguments(stage, values->data, most_groups);
+    if (grid.x == 0 || grid.y == 0) {
+        device.add_stage_time(std::string(stage), 0.0, 1);
+    } else {
+        add_grid(*impl_, stage, job, grid, bind);
+    }
 }
 
 void Recorder::fill(std::string_view stage, const Buffer& buffer, uint32_t value, uint64_t offset, uint64_t bytes) {
-    Buffer::Impl& target = impl_->use(stage, buffer, "the fill");
+    const Buffer::Impl& target = checked_buffer(stage, *impl_->device, buffer, "the fill");
     const std::string name = "buffer " + target.name;
     const uint64_t range = checked_range(stage, name, offset, bytes, target.capacity, sizeof(uint32_t));
     if (range % sizeof(uint32_t) != 0) fail_stage(stage, "a fill of " + std::to_string(range) + " bytes of " + name);
-    impl_->add(stage,
+    impl_->in_use.push_back(buffer.impl());
+    const std::array accesses{Access{&target, offset, offset + range, true}};
+    impl_->add({.stage = std::string(stage)}, accesses,
                [&](VkCommandBuffer commands) { vkCmdFillBuffer(commands, target.memory.buffer.get(), offset, range, value); });
 }
 
 void Recorder::copy(std::string_view stage, const Buffer& from, uint64_t from_offset, const Buffer& to, uint64_t to_offset,
                     uint64_t bytes) {
-    Buffer::Impl& source = impl_->use(stage, from, "the copy's source");
-    Buffer::Impl& target = impl_->use(stage, to, "the copy's target");
+    const Buffer::Impl& source = checked_buffer(stage, *impl_->device, from, "the copy's source");
+    const Buffer::Impl& target = checked_buffer(stage, *impl_->device, to, "the copy's target");
     if (bytes == 0) return;
     checked_range(stage, "buffer " + source.name, from_offset, bytes, source.bytes, 1);
     checked_range(stage, "buffer " + target.name, to_offset, bytes, target.bytes, 1);
     const bool overlap = &source == &target && from_offset < to_offset + bytes && to_offset < from_offset + bytes;
     if (overlap) fail_stage(stage, "a copy within buffer " + source.name + " between ranges that overlap");
-    impl_->add(stage, [&](VkCommandBuffer commands) {
-        const VkBufferCopy region{.srcOffset = from_offset, .dstOffset = to_offset, .size = bytes};
-        vkCmdCopyBuffer(commands, source.memory.buffer.get(), target.memory.buffer.get(), 1, &region);
-    });
+    impl_->in_use.push_back(from.impl());
+    impl_->in_use.push_back(to.impl());
+    impl_->add_copy(std::string(stage), {&source, from_offset, from_offset + bytes, false}, source.memory.buffer.get(),
+                    {&target, to_offset, to_offset + bytes, true}, target.memory.buffer.get());
+}
+
+void Recorder::upload(const Buffer& buffer, std::span<const std::byte> data, uint64_t offset) {
+    impl_->upload(checked_transfer(*impl_->device, buffer, offset, data.size(), "upload"), data, offset);
+}
+
+Download Recorder::download(const Buffer& buffer, uint64_t offset, uint64_t bytes) {
+    Download download;
+    download.state_ = impl_->fetch_new(checked_transfer(*impl_->device, buffer, offset, bytes, "download"), offset, bytes);
+    return download;
 }
 
 void Recorder::submit() {
-    Impl& impl = *impl_;
-    if (!impl.recording) {
-        impl.in_use.clear();
-        impl.device->throw_new_messages();
-        return;
-    }
-    try {
-        record_host_barrier(impl.commands.buffer);
-        check(vkEndCommandBuffer(impl.commands.buffer), "end a command buffer");
-        impl.device->submit_and_wait(impl.commands.buffer);
-        const std::vector<double> seconds = impl.timestamps.seconds_between_pairs();
-        for (size_t i = 0; i < seconds.size(); ++i) impl.device->add_stage_time(impl.stages[i], seconds[i]);
-    } catch (...) {
-        impl.reset();
-        throw;
-    }
-    impl.reset();
+    impl_->flush();
+    impl_->state->sets.reset();
+    impl_->in_use.clear();
+    impl_->device->throw_new_messages();
+}
+
+std::span<const std::byte> Download::bytes() const {
+    const std::string hint = "fix the code that reads it";
+    if (!state_) throw Error(ErrorKind::internal, "an empty download is read", "", hint);
+    if (!state_->ready)
+        throw Error(ErrorKind::internal, "a download is read before it was submitted", "buffer " + state_->name, hint);
+    return state_->data;
+}
+
+void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset) {
+    const auto& target = checked_transfer(*device.impl(), buffer, offset, data.size(), "upload");
+    Recorder::Impl recorder(device.impl());
+    recorder.upload(target, data, offset);
+    recorder.flush();
+}
+
+void download(Device& device, const Buffer& buffer, std::span<std::byte> data, uint64_t offset) {
+    const auto& source = checked_transfer(*device.impl(), buffer, offset, data.size(), "download");
+    if (data.empty()) return;
+    Recorder::Impl recorder(device.impl());
+    recorder.fetch(source, offset, data.size(), data.data(), nullptr);
+    recorder.flush();
 }
 
 }  // namespace gnomon::gpu

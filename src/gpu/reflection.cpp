@@ -232,10 +232,20 @@ private:
             const bool block = storage == spv::StorageClass::Uniform && !decorated(type, spv::Decoration::BufferBlock);
             resource.kind = block ? ResourceKind::uniform_buffer : ResourceKind::storage_buffer;
             resource.min_bytes = type_bytes(type);
+            resource.writable = !block && !decorated(id, spv::Decoration::NonWritable) && !all_members_read_only(type);
         } else {
             fail("resource '" + name(id) + "' is an array or of a kind that is not supported");
         }
         result.resources.push_back(std::move(resource));
+    }
+
+    // glslang decorates the members of a readonly block, not its variable.
+    bool all_members_read_only(uint32_t type) const {
+        const size_t members = definition(type).size() - 2;
+        for (uint32_t member = 0; member < members; ++member) {
+            if (!member_decorated(type, member, spv::Decoration::NonWritable)) return false;
+        }
+        return true;
     }
 
     ResourceKind texel_kind(const std::string& variable, uint32_t type) const {

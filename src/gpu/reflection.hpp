@@ -19,6 +19,7 @@ struct Resource {
     ResourceKind kind = ResourceKind::storage_buffer;
     uint32_t binding = 0;    ///< In descriptor set 0.
     uint64_t min_bytes = 0;  ///< Of the block without a trailing unsized array; 0 for texel buffers.
+    bool writable = false;   ///< A storage block that is not readonly as a whole.
 };
 
 struct Reflection {

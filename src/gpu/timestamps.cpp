@@ -9,10 +9,15 @@ namespace gnomon::gpu {
 
 Timestamps::Timestamps(const Device::Impl& device)
     : device_(device.device.get()),
+      measured_(device.limits.timestamps),
       seconds_per_tick_(1e-9 * static_cast<double>(device.vulkan_limits.timestampPeriod)),
-      mask_(std::numeric_limits<uint64_t>::max() >> (64 - device.candidate.timestamp_bits)) {}
+      mask_(measured_ ? std::numeric_limits<uint64_t>::max() >> (64 - device.candidate.timestamp_bits) : 0) {}
 
 void Timestamps::record(VkCommandBuffer commands) {
+    if (!measured_) {
+        ++count_;
+        return;
+    }
     const size_t pool = count_ / kPoolQueries;
     const auto query = static_cast<uint32_t>(count_ % kPoolQueries);
     if (pool == pools_.size()) {
@@ -26,7 +31,9 @@ void Timestamps::record(VkCommandBuffer commands) {
     ++count_;
 }
 
-std::vector<double> Timestamps::seconds_between_pairs() const {
+std::vector<double> Timestamps::seconds_between() const {
+    std::vector<double> seconds(count_ > 0 ? count_ - 1 : 0, 0.0);
+    if (!measured_) return seconds;
     std::vector<uint64_t> ticks(count_);
     for (size_t first = 0; first < count_; first += kPoolQueries) {
         const size_t count = std::min<size_t>(kPoolQueries, count_ - first);
@@ -35,9 +42,8 @@ std::vector<double> Timestamps::seconds_between_pairs() const {
                                     VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
               "read timestamps");
     }
-    std::vector<double> seconds(count_ / 2);
     for (size_t i = 0; i < seconds.size(); ++i) {
-        seconds[i] = static_cast<double>((ticks[2 * i + 1] - ticks[2 * i]) & mask_) * seconds_per_tick_;
+        seconds[i] = static_cast<double>((ticks[i + 1] - ticks[i]) & mask_) * seconds_per_tick_;
     }
     return seconds;
 }

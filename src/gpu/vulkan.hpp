@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Inside src/gpu only: Vulkan handles that free themselves, errors from its results, and what the types of gpu.hpp hold.
+// Inside src/gpu only: errors from results of Vulkan, and what the types of gpu.hpp hold.
 #pragma once
-
-#include <vulkan/vulkan.h>
 
 #include <functional>
 #include <gnomon/error.hpp>
@@ -16,43 +14,12 @@
 #include <vector>
 
 #include "gpu/gpu.hpp"
+#include "gpu/owned.hpp"
+#include "gpu/pace.hpp"
+#include "gpu/pool.hpp"
 #include "gpu/reflection.hpp"
 
 namespace gnomon::gpu {
-
-/// A child of a VkDevice, destroyed with this object.
-template <class T, void(VKAPI_PTR* kDestroy)(VkDevice, T, const VkAllocationCallbacks*)>
-class Owned {
-public:
-    Owned() = default;
-    Owned(VkDevice device, T handle) : device_(device), handle_(handle) {}
-    Owned(Owned&& other) noexcept : device_(other.device_), handle_(std::exchange(other.handle_, T{})) {}
-    Owned& operator=(Owned&& other) noexcept {
-        std::swap(device_, other.device_);
-        std::swap(handle_, other.handle_);
-        return *this;
-    }
-    ~Owned() {
-        if (handle_) kDestroy(device_, handle_, nullptr);
-    }
-    T get() const { return handle_; }
-
-private:
-    VkDevice device_ = VK_NULL_HANDLE;
-    T handle_ = VK_NULL_HANDLE;
-};
-
-using OwnedBuffer = Owned<VkBuffer, vkDestroyBuffer>;
-using OwnedMemory = Owned<VkDeviceMemory, vkFreeMemory>;
-using OwnedBufferView = Owned<VkBufferView, vkDestroyBufferView>;
-using OwnedShaderModule = Owned<VkShaderModule, vkDestroyShaderModule>;
-using OwnedSetLayout = Owned<VkDescriptorSetLayout, vkDestroyDescriptorSetLayout>;
-using OwnedPipelineLayout = Owned<VkPipelineLayout, vkDestroyPipelineLayout>;
-using OwnedPipeline = Owned<VkPipeline, vkDestroyPipeline>;
-using OwnedDescriptorPool = Owned<VkDescriptorPool, vkDestroyDescriptorPool>;
-using OwnedQueryPool = Owned<VkQueryPool, vkDestroyQueryPool>;
-using OwnedCommandPool = Owned<VkCommandPool, vkDestroyCommandPool>;
-using OwnedFence = Owned<VkFence, vkDestroyFence>;
 
 /// Throw unless the result is a success. `what` completes "cannot ...". Errors: out_of_memory, device_lost, else internal.
 void check(VkResult result, const std::string& what, const std::string& where = "");
@@ -66,9 +33,9 @@ OwnedT create(VkDevice device, Create create_function, const Info& info, const s
     return OwnedT(device, handle);
 }
 
-/// A buffer with memory of its own; `mapped` where the host can see it.
+/// A buffer with its memory; `mapped` where the host can see it.
 struct Memory {
-    OwnedMemory memory;  // before the buffer, so that the buffer goes first
+    MemoryPool::Piece piece;  // before the buffer, so that the buffer goes first
     OwnedBuffer buffer;
     std::byte* mapped = nullptr;
 };
@@ -90,12 +57,28 @@ private:
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
 };
 
+/// How many invocations are a subgroup. A compiler may choose for each SPIR-V 1.6 shader by itself, from Vulkan's
+/// minSubgroupSize to `most`, unless it is told.
+struct SubgroupSize {
+    uint32_t size = 1;  ///< What pipelines ask for, or else the device's usual one.
+    uint32_t most = 1;
+    bool required = false;  ///< Pipelines ask for it.
+};
+
+/// The usual size, or 64 where that is more and a device may be asked for 64: workgroups have 64 invocations.
+SubgroupSize choose_subgroup_size(uint32_t usual, uint32_t least, uint32_t most, bool may_require);
+
 /// A device of this machine, usable or not.
 struct Candidate {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     DeviceDescription description;
     uint32_t queue_family = 0;
-    uint32_t timestamp_bits = 0;
+    uint32_t timestamp_bits = 0;  ///< 0: it has none.
+    bool subgroup_size_control = false;
+    SubgroupSize subgroup;
+    uint32_t max_workgroup_subgroups = 0;  ///< Where a size is required.
+    bool uniform_control_flow = false;     ///< It has VK_KHR_shader_subgroup_uniform_control_flow.
+    std::vector<const char*> extensions;   ///< To enable.
 };
 
 std::vector<Candidate> find_candidates(const Instance& instance);
@@ -113,45 +96,53 @@ struct DestroyDevice {
     void operator()(VkDevice device) const { vkDestroyDevice(device, nullptr); }
 };
 
+struct RecorderState;
+
 struct Device::Impl {
     Impl(const std::string& choice, bool validate);
+    ~Impl();
 
     /// A command buffer, reset; the caller lends it and puts it back. None is freed before the device is: the validation layer
     /// of 1.3.239 drops the labels of a freed one in a thread of its own, without its lock (its issue 5172).
     Commands take_commands();
     void put_back(Commands commands);
+    /// What a recorder needs; lent and put back in the same way.
+    std::unique_ptr<RecorderState> take_state();
+    void put_back(std::unique_ptr<RecorderState> state);
     /// Record one command buffer, run it and wait.
     void run_once(const std::function<void(VkCommandBuffer)>& record);
     /// Run an ended command buffer and wait. Errors as Recorder::submit.
-    void submit_and_wait(VkCommandBuffer commands);
+    /// Gives the seconds that the host waited.
+    double submit_and_wait(VkCommandBuffer commands);
     /// Throw what the validation layer said since the last call.
     void throw_new_messages();
     void set_object_name(VkObjectType type, uint64_t handle, const std::string& name);
 
-    /// The first of these sets of memory properties that the device offers gives the memory.
+    /// The first of these sets of memory properties that the device offers gives the memory. `map`: for the host to see.
     Memory make_memory(const std::string& name, uint64_t bytes, VkBufferUsageFlags usage,
-                       std::span<const VkMemoryPropertyFlags> preferences);
-    void map(Memory& made);  ///< Until it is freed.
-    /// kStagingBytes of mapped host memory, made at first use.
-    const Memory& staging();
+                       std::span<const VkMemoryPropertyFlags> preferences, bool map);
+    /// Bytes of device memory that buffers may take together with what is kept for later ones.
+    uint64_t most_held_bytes() const;
+    void release_memory(uint64_t down_to);  ///< Of each pool.
 
     void add_live(const std::string& name, uint64_t bytes);
     void remove_live(const std::string& name, uint64_t bytes);
     /// ": name bytes, ..." of the largest live buffers.
     std::string describe_live() const;
-    void add_stage_time(const std::string& stage, double seconds);
+    void add_stage_time(const std::string& stage, double seconds, uint64_t dispatches);
 
     Instance instance;
     Candidate candidate;
     std::unique_ptr<VkDevice_T, DestroyDevice> device;  // before all that is made from it
-    Limits limits;
+    Limits limits;  ///< Of the device, or lowered for tests; checks use these where there is one.
     VkPhysicalDeviceLimits vulkan_limits{};
     VkPhysicalDeviceMemoryProperties memory_properties{};
-    bool map_buffers = false;  ///< Device memory is as good to read and write from the host as host memory.
+    uint64_t max_allocation_bytes = 0;
     VkQueue queue = VK_NULL_HANDLE;
     OwnedFence fence;
     std::vector<Commands> idle_commands;
-    Memory staging_memory;
+    std::map<std::pair<uint32_t, bool>, MemoryPool> pools;  ///< By memory type and whether they are mapped.
+    std::vector<std::unique_ptr<RecorderState>> idle_states;
 
     size_t messages_thrown = 0;
     uint64_t budget = 0;
@@ -160,6 +151,9 @@ struct Device::Impl {
     std::map<std::string, uint64_t> live_by_name;
     std::map<std::string, uint64_t> largest_by_name;
     std::vector<StageTime> stage_times;
+    uint64_t submissions = 0;
+    double longest_dispatch_seconds = 0.0;
+    Pace pace{0.0};
 };
 
 struct Buffer::Impl {
@@ -178,6 +172,7 @@ struct Buffer::Impl {
 struct Program::Impl {
     std::shared_ptr<Device::Impl> device;
     std::string name;
+    std::string key;  ///< The name with the values of its constants.
     Reflection reflection;
     OwnedSetLayout set_layout;
     OwnedPipelineLayout layout;

@@ -10,12 +10,20 @@ namespace gnomon::gpu {
 namespace {
 
 // The parameter: buffers are mapped where the device can (else staged), or always staged.
-class Transfer : public DeviceTest, public testing::WithParamInterface<bool> {
+class Transfer : public testing::TestWithParam<bool> {
 protected:
-    void SetUp() override {
-        if (GetParam()) device.impl()->map_buffers = false;
-    }
+    void TearDown() override { EXPECT_THAT(device.validation_messages(), testing::IsEmpty()); }
+
+    ScopedVariable limits{"GNOMON_LIMITS", GetParam() ? "mapped=0" : ""};
+    Device device{"", true};
 };
+
+TEST_P(Transfer, IsAsAskedFor) {
+    if (GetParam()) {
+        EXPECT_FALSE(device.limits().mapped);
+    }
+    EXPECT_EQ(device.allocate("buffer", 64).impl()->memory.mapped != nullptr, device.limits().mapped);
+}
 
 TEST_P(Transfer, RoundTripWithOffsets) {
     const Buffer buffer = upload_new(device, "numbers", iota(1000));

@@ -2,33 +2,15 @@
 // Listing and choosing devices, their limits.
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 
+#include "gpu/vulkan.hpp"
 #include "gpu_test.hpp"
+#include "gpu_test_declarations.spv.h"
+#include "gpu_test_read_write.spv.h"
+#include "gpu_test_scale.spv.h"
 
 namespace gnomon::gpu {
 namespace {
-
-// Sets an environment variable for the life of this object.
-class ScopedVariable {
-public:
-    ScopedVariable(const char* name, const char* value) : name_(name) {
-        if (const char* old = std::getenv(name)) old_ = old, had_ = true;
-        setenv(name, value, 1);
-    }
-    ~ScopedVariable() {
-        if (had_) {
-            setenv(name_, old_.c_str(), 1);
-        } else {
-            unsetenv(name_);
-        }
-    }
-
-private:
-    const char* name_;
-    std::string old_;
-    bool had_ = false;
-};
 
 TEST(ListDevices, DescribesWhatIsThere) {
     const std::vector<DeviceDescription> devices = gnomon::list_devices();
@@ -79,6 +61,105 @@ TEST(DeviceChoice, UnknownListsWhatExists) {
     expect_error(ErrorKind::no_device, {"'99999999999999999999'", name}, [] { Device("99999999999999999999", false); });
 }
 
+// Usual size, least, most, may be required: of CPUs, of three makers' GPUs, and of one with large subgroups.
+TEST(SubgroupSizes, AreRequiredAndAtMost64WherePossible) {
+    const auto expect_size = [](const SubgroupSize& chosen, uint32_t size, uint32_t most, bool required) {
+        EXPECT_EQ(chosen.size, size);
+        EXPECT_EQ(chosen.most, most);
+        EXPECT_EQ(chosen.required, required);
+    };
+    expect_size(choose_subgroup_size(4, 4, 4, true), 4, 4, true);
+    expect_size(choose_subgroup_size(32, 32, 32, true), 32, 32, true);
+    expect_size(choose_subgroup_size(32, 8, 32, true), 32, 32, true);
+    expect_size(choose_subgroup_size(32, 8, 32, false), 32, 32, false);
+    expect_size(choose_subgroup_size(64, 32, 64, true), 64, 64, true);
+    expect_size(choose_subgroup_size(128, 64, 128, true), 64, 128, true);
+    expect_size(choose_subgroup_size(128, 128, 128, true), 128, 128, true);
+    expect_size(choose_subgroup_size(64, 64, 128, false), 64, 128, false);
+}
+
+TEST(LoweredLimits, AreWhatTheDeviceSeemsToHave) {
+    const ScopedVariable lowered("GNOMON_LIMITS",
+                                 "texels=65536,storage_range=16777216,storage_buffers=4,push_constants=64,groups=100,"
+                                 "buffer=1000000,dispatch_ms=3,timestamps=0,mapped=0");
+    const Device device("", true);
+    EXPECT_EQ(device.limits().max_texels, 65536u);
+    EXPECT_EQ(device.limits().max_storage_range, 16777216u);
+    EXPECT_EQ(device.limits().storage_buffers, 4u);
+    EXPECT_EQ(device.limits().push_constant_bytes, 64u);
+    EXPECT_EQ(device.limits().max_groups, 100u);
+    EXPECT_EQ(device.limits().max_buffer_bytes, 1000000u);
+    EXPECT_EQ(device.limits().dispatch_ms, 3u);
+    EXPECT_FALSE(device.limits().mapped);
+    EXPECT_FALSE(device.has_timestamps());
+}
+
+TEST(LoweredLimits, OthersAndHigherOnesAreErrors) {
+    const auto expect_refused = [](const char* text, const std::string& what) {
+        const ScopedVariable lowered("GNOMON_LIMITS", text);
+        expect_error(ErrorKind::usage, {"GNOMON_LIMITS", "'" + what + "'", "storage_range", "push_constants"},
+                     [] { Device("", false); });
+    };
+    expect_refused("texel=65536", "texel=65536");
+    expect_refused("texels=65536,,groups=1", "");
+    expect_refused("texels", "texels");
+    expect_refused("texels=", "texels=");
+    expect_refused("groups=many", "groups=many");
+    expect_refused("groups=-1", "groups=-1");
+    expect_refused("groups=7 ", "groups=7 ");
+    expect_refused("groups=7,groups=8", "groups=8");
+    expect_refused("timestamps=2", "timestamps=2");
+    expect_refused("storage_range=99999999999999", "storage_range=99999999999999");
+    expect_refused("storage_range=99999999999999999999", "storage_range=99999999999999999999");
+}
+
+TEST(LoweredLimits, AreChecked) {
+    const ScopedVariable lowered("GNOMON_LIMITS", "texels=8,storage_range=64,push_constants=8,groups=3,buffer=4096");
+    Device device("", true);
+    const Program program = device.program({"scale", gpu_test_scale});
+    const Buffer values = device.allocate("values", 64);
+    const Buffer scaled = device.allocate("scaled", 128);
+    Recorder recorder(device);
+    const auto dispatch = [&](uint64_t texels, uint64_t range, uint64_t groups) {
+        const std::vector<Binding> bindings{
+            {.name = "values", .buffer = &values, .texel = Texel::r32_float, .bytes = 4 * texels},
+            {.name = "Scaled", .buffer = &scaled, .bytes = range}};
+        recorder.dispatch("test/scale", program, bindings, std::array<uint32_t, 2>{}, groups);
+    };
+    EXPECT_NO_THROW(dispatch(8, 64, 9));
+    expect_error(ErrorKind::internal, {"'values'", "9 texels", "at most 8"}, [&] { dispatch(9, 64, 9); });
+    expect_error(ErrorKind::internal, {"'Scaled'", "68 bytes", "at most 64"}, [&] { dispatch(8, 68, 9); });
+    expect_error(ErrorKind::internal, {"10 workgroups", "3 by 3"}, [&] { dispatch(8, 64, 10); });
+    expect_error(ErrorKind::out_of_memory, {"'large'", "at most 4.0 KiB"}, [&] { device.allocate("large", 8192); });
+    EXPECT_NO_THROW(recorder.submit());
+}
+
+TEST(LoweredLimits, OfProgramsAreChecked) {
+    const ScopedVariable lowered("GNOMON_LIMITS", "storage_buffers=2,push_constants=123");
+    Device device("", true);
+    EXPECT_NO_THROW(device.program({"scale", gpu_test_scale}));
+    expect_error(ErrorKind::no_device, {"read_write", "3 storage buffers", "allows 2"}, [&] {
+        device.program({"read_write", gpu_test_read_write});
+    });
+    expect_error(ErrorKind::no_device, {"declarations", "124 bytes of push constants", "allows 123"}, [&] {
+        device.program({"declarations", gpu_test_declarations});
+    });
+}
+
+TEST(LoweredLimits, WithoutTimestampsStagesHaveNoSeconds) {
+    const ScopedVariable lowered("GNOMON_LIMITS", "timestamps=0");
+    Device device("", true);
+    const Buffer values = device.allocate("values", 64);
+    Recorder recorder(device);
+    recorder.fill("clear", values, 1);
+    recorder.fill("clear", values, 2);
+    recorder.submit();
+    EXPECT_EQ(download_vector<uint32_t>(device, values, 1)[0], 2u);
+    ASSERT_EQ(device.stage_times().size(), 1u);
+    EXPECT_EQ(device.stage_times()[0].seconds, 0.0);
+    EXPECT_EQ(device.stage_times()[0].dispatches, 2u);
+}
+
 TEST_F(DeviceTest, LimitsAreWithinVulkansGuarantees) {
     const Limits& limits = device.limits();
     EXPECT_EQ(limits.heap_bytes, device.description().heap_bytes);
@@ -89,6 +170,9 @@ TEST_F(DeviceTest, LimitsAreWithinVulkansGuarantees) {
     EXPECT_LE(limits.texel_alignment, 256u);
     EXPECT_GE(limits.max_groups, 65535u);
     EXPECT_GE(limits.subgroup_size, 1u);
+    EXPECT_GE(limits.storage_buffers, 4u);
+    EXPECT_GE(limits.push_constant_bytes, 128u);
+    EXPECT_EQ(limits.timestamps, device.has_timestamps());
     EXPECT_EQ(limits.is_cpu, device.description().type == "cpu");
 }
 

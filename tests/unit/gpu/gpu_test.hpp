@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <gnomon/error.hpp>
 #include <string>
 #include <vector>
@@ -30,6 +31,29 @@ inline std::vector<uint32_t> iota(uint32_t count, uint32_t first = 0) {
     for (uint32_t i = 0; i < count; ++i) values[i] = first + i;
     return values;
 }
+
+/// Sets an environment variable for the life of this object.
+class ScopedVariable {
+public:
+    ScopedVariable(const char* name, const char* value) : name_(name) {
+        if (const char* old = std::getenv(name)) old_ = old, had_ = true;
+        setenv(name, value, 1);
+    }
+    ScopedVariable(const ScopedVariable&) = delete;
+    ScopedVariable& operator=(const ScopedVariable&) = delete;
+    ~ScopedVariable() {
+        if (had_) {
+            setenv(name_, old_.c_str(), 1);
+        } else {
+            unsetenv(name_);
+        }
+    }
+
+private:
+    const char* name_;
+    std::string old_;
+    bool had_ = false;
+};
 
 /// A fixture with a device that validates. At its end no message may be left.
 class DeviceTest : public testing::Test {

@@ -6,6 +6,7 @@
 #include "gpu_test_array_of_blocks.spv.h"
 #include "gpu_test_declarations.spv.h"
 #include "gpu_test_local_size.spv.h"
+#include "gpu_test_read_write.spv.h"
 #include "gpu_test_scale.spv.h"
 #include "gpu_test_second_set.spv.h"
 #include "gpu_test_storage_image.spv.h"
@@ -36,6 +37,15 @@ TEST(Reflection, FindsEveryKindOfResource) {
     expect_resource(reflection, "points", ResourceKind::float_texels, 3, 0);
     expect_resource(reflection, "Header", ResourceKind::storage_buffer, 9, 12);
     expect_resource(reflection, "Sums", ResourceKind::storage_buffer, 0, 0);
+}
+
+TEST(Reflection, KnowsWhatMayBeWritten) {
+    const Reflection reflection = reflect({"read_write", gpu_test_read_write}, {});
+    EXPECT_FALSE(find(reflection, "texels").writable);
+    EXPECT_FALSE(find(reflection, "Input").writable);
+    EXPECT_FALSE(find(reflection, "Settings").writable);
+    EXPECT_TRUE(find(reflection, "Mixed").writable);
+    EXPECT_TRUE(find(reflection, "Sums").writable);
 }
 
 TEST(Reflection, SizesPushConstantsFromTheirMembers) {
