@@ -4,22 +4,17 @@
 //          lowest, of equally near ones), which with the depth is the nearest map; the triangle covers the texel if its nearest fragment and another one are a whole
 //          segment apart, and its depth becomes the other one's; where another prism has a fragment nearer than that, nothing covers it.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
-// Writes:  NearestDepths (depth_key), NearestTriangles, Coverage (triangle or kNone), per list
+// Writes:  NearestDepths (ordered bits, math/order.h), NearestTriangles, Coverage (triangle or kNone), per list
 // Grid:    8 invocations per tile and cell
 // Based on: Hong and Oh 2017, Extension; its second pass writes depth untested, so that its third, which tests it, meets the depth where the covering triangle goes
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
 #include "common/prism_texels.glsl"
+#include "math/order.h"
 
 layout(binding = 16, scalar) buffer NearestDepths { uint nearest_depths[]; };
 layout(binding = 17, scalar) buffer NearestTriangles { uint nearest_triangles[]; };
 layout(binding = 18, scalar) buffer Coverage { uint coverage[]; };
-
-// As an integer in the same order.
-uint depth_key(float metres) {
-    uint bits = floatBitsToUint(metres);
-    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
-}
 
 void visit(uint list, uint triangle, PrismFragments f) {
     float depth = kFarthest, time = 0.0;
@@ -28,7 +23,7 @@ void visit(uint list, uint triangle, PrismFragments f) {
         depth = nearer ? f.metres[i] : depth;
         time = nearer ? f.time[i] : time;
     }
-    uint key = depth_key(depth);
+    uint key = ordered_bits(depth);
     if (kPass == 0u) atomicMin(nearest_depths[list], key);
     if (kPass == 1u && key == nearest_depths[list]) atomicMin(nearest_triangles[list], triangle);
     if (kPass == 2u && triangle == nearest_triangles[list]) {
@@ -41,7 +36,7 @@ void visit(uint list, uint triangle, PrismFragments f) {
         }
         if (whole) {
             coverage[list] = triangle;
-            nearest_depths[list] = depth_key(other);
+            nearest_depths[list] = ordered_bits(other);
         }
     }
     if (kPass == 3u) {

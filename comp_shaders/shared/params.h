@@ -31,6 +31,8 @@ const uint kMostTurns = 65535u;
 const uint kListChunk = 6144u;
 // Fragments of a list that one dispatch of raster/prism pairs, up to the end of a prism's.
 const uint kPairChunk = 32768u;
+// Triangles that one invocation bounds.
+const uint kBoundsRun = 16u;
 // Elements that one invocation scans.
 const uint kScanRun = 64u;
 #ifdef __cplusplus
@@ -61,6 +63,12 @@ GN_FN uint trace_chunk(ViewGrid grid, uint spp) {
 struct PoseParams {
     uint vertex_first;  // Of the dispatch; what it writes is bound from there on.
     uint vertex_count;
+};
+
+struct BoundsParams {
+    uint triangle_count;
+    uint vertex_stride;
+    uint key_count;
 };
 
 struct ProjectParams {

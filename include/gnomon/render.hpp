@@ -90,6 +90,19 @@ struct DeviceDescription {
 /// All Vulkan devices of this machine. An empty list where there is no driver.
 std::vector<DeviceDescription> list_devices();
 
+/// What of a scene does not move, on a renderer's device: for frames that differ in pose or settings alone. It refers to the
+/// scene, which must not change or go before it.
+class LoadedScene {
+public:
+    const Scene& scene() const;
+
+    struct Impl;
+
+private:
+    friend class Renderer;
+    std::shared_ptr<const Impl> impl_;
+};
+
 /// A Vulkan device with its programs. Construction is expensive, frames are not: keep one.
 class Renderer {
 public:
@@ -106,6 +119,12 @@ public:
     /// Render the scene in these poses (segments + 1 of them, see pose_scene). The scene needs a camera and may have no light.
     /// Errors: ErrorKind::usage, input, out_of_memory, device_lost. Deterministic: same arguments, same bits.
     Frame render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
+                 const Progress& progress = {});
+
+    /// Upload the scene for several frames. Errors: ErrorKind::input, out_of_memory, device_lost.
+    LoadedScene load(const Scene& scene);
+    /// The same frame as of its scene. Errors: also ErrorKind::usage for a scene that another renderer loaded.
+    Frame render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                  const Progress& progress = {});
 
 private:

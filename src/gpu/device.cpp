@@ -271,7 +271,7 @@ void Device::reset_statistics() {
     impl_->longest_dispatch_seconds = 0.0;
     impl_->stage_times.clear();
     impl_->peak_bytes = impl_->live_bytes;
-    impl_->largest_by_name.clear();
+    impl_->largest_by_name = impl_->live_by_name;
 }
 
 }  // namespace gnomon::gpu

@@ -26,7 +26,7 @@ struct Limits {
     uint64_t max_storage_range = 0;  ///< Bytes of one storage-buffer binding (128 MiB on lavapipe).
     uint64_t storage_alignment = 1;  ///< Of a storage binding's offset.
     uint64_t max_texels = 0;         ///< Elements of one texel-buffer binding.
-    bool storage_reads = false;      ///< Stages read through storage buffers, not through texel buffers.
+    bool texel_reads = true;         ///< Stages read through texel buffers where they can.
     uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
     uint32_t subgroup_size = 1;      ///< Of all pipelines; a device that cannot be asked for one size may use others.
@@ -38,8 +38,10 @@ struct Limits {
     bool mapped = false;         ///< The host sees buffers; else uploads and downloads are staged.
     bool is_cpu = false;
 
+    /// Stages read through storage buffers: some devices have texel buffers of as few as 65,536 elements.
+    bool storage_reads() const { return !texel_reads || max_texels < (uint64_t{1} << 24); }
     /// Elements of so many bytes that a stage can read through one binding.
-    uint64_t most_elements(uint64_t bytes) const { return storage_reads ? max_storage_range / bytes : max_texels; }
+    uint64_t most_elements(uint64_t bytes) const { return storage_reads() ? max_storage_range / bytes : max_texels; }
 };
 
 class Device;
@@ -116,7 +118,7 @@ public:
     /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and
     /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
     /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if the device had no more:
-    /// "texels=65536,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,buffer=67108864,dispatch_ms=1,
+    /// "texels=65536,texel_reads=0,crew=2,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,buffer=67108864,dispatch_ms=1,
     /// timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's
     /// own.
     Device(const std::string& choice, bool validate);
@@ -153,7 +155,7 @@ public:
     /// Of all that ran as one, a dispatch or a piece of one, since the last reset. Without timestamps an estimate.
     double longest_dispatch_seconds() const;
     uint64_t submissions() const;  ///< Since the last reset; each is waited for.
-    void reset_statistics();       ///< Stage times, longest dispatch, submissions, peak and largest bytes.
+    void reset_statistics();       ///< Stage times, longest dispatch, submissions; peak and largest bytes are those of now.
 
     struct Impl;
     const std::shared_ptr<Impl>& impl() const { return impl_; }

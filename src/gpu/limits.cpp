@@ -25,12 +25,14 @@ KnownLimit known(const char* name, T& value) {
 
 std::vector<KnownLimit> known_limits(Limits& limits) {
     return {known("buffer", limits.max_buffer_bytes),
+            known("crew", limits.crew),
             known("dispatch_ms", limits.dispatch_ms),
             known("groups", limits.max_groups),
             known("mapped", limits.mapped),
             known("push_constants", limits.push_constant_bytes),
             known("storage_buffers", limits.storage_buffers),
             known("storage_range", limits.max_storage_range),
+            known("texel_reads", limits.texel_reads),
             known("texels", limits.max_texels),
             known("timestamps", limits.timestamps)};
 }

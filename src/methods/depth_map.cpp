@@ -66,7 +66,7 @@ void record_depths(gpu::Recorder& recorder, const LightContext& light, const Bin
         "map/depth",
         light.programs.get("methods/depth_map/depth", {light.view.orthographic, tracer.straddle(), floats, sampling.sliced}),
         bindings({{"hits", &tracer.hits(), Texel::r32_uint},
-                  {"triangles", &light.geometry.triangles, Texel::rgba32_uint},
+                  {"triangles", &light.geometry.scene->triangles, Texel::rgba32_uint},
                   {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
                   {"MapSamples", &samples, {}, first * element, batch.slot_count() * element}}),
         shared::MapDepthParams{bins.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,

@@ -17,8 +17,21 @@
 
 namespace gnomon {
 
+struct LoadedScene::Impl {
+    const Scene& scene;
+    std::shared_ptr<const SceneData> data;
+    const gpu::Device* device = nullptr;  ///< It is on.
+};
+
+const Scene& LoadedScene::scene() const { return impl_->scene; }
+
 struct Renderer::Impl {
     Impl(const std::string& choice, bool validate) : device(choice, validate), programs(device) {}
+
+    /// loaded: what is on the device of the scene; none: nothing yet.
+    Frame render(const Scene& scene, std::shared_ptr<const SceneData> loaded, const std::vector<Pose>& poses,
+                 const RenderSettings& settings, const Progress& progress);
+
     gpu::Device device;
     Programs programs;
 };
@@ -114,10 +127,29 @@ const DeviceDescription& Renderer::device() const { return impl_->device.descrip
 
 Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                        const Progress& progress) {
+    return impl_->render(scene, nullptr, poses, settings, progress);
+}
+
+Frame Renderer::render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
+                       const Progress& progress) {
+    if (scene.impl_ == nullptr || scene.impl_->device != &impl_->device)
+        throw Error(ErrorKind::usage, "the scene was not loaded by this renderer", "scene", "load it with Renderer::load");
+    return impl_->render(scene.scene(), scene.impl_->data, poses, settings, progress);
+}
+
+LoadedScene Renderer::load(const Scene& scene) {
+    check_scene(impl_->device, scene, 2, impl_->device.limits().heap_bytes);
+    impl_->device.set_budget(0);
+    LoadedScene loaded;
+    loaded.impl_ = std::make_shared<LoadedScene::Impl>(
+        LoadedScene::Impl{scene, std::make_shared<SceneData>(upload_scene(impl_->device, scene)), &impl_->device});
+    return loaded;
+}
+
+Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData> loaded, const std::vector<Pose>& poses,
+                             const RenderSettings& settings, const Progress& progress) {
     auto start = std::chrono::steady_clock::now();
     check(scene, poses, settings);
-    gpu::Device& device = impl_->device;
-    Programs& programs = impl_->programs;
     const Method& method = find_method(settings.method);
     check_parameters(method, settings.parameters);
     const std::string raster = choose_raster(method, settings.raster);
@@ -127,11 +159,11 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
         std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
         if (settings.keep_texel_ranges) stages.emplace_back("raster/texel_ranges");
         for (const std::string& stage : stages)
-            programs.add(layout.stage(stage), compile_stage(stage, layout, device.limits().storage_reads));
+            programs.add(layout.stage(stage), compile_stage(stage, layout, device.limits().storage_reads()));
     }
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;
-    check_scene(device, scene, poses, budget);
+    check_scene(device, scene, poses.size(), budget);
     device.set_budget(budget);
 
     Frame frame;
@@ -143,8 +175,9 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     make_channels(frame);
 
     // The scene, posed.
-    Bounds bounds = bounds_of(scene, poses);
-    Geometry geometry = pose_geometry(device, programs, scene, poses);
+    if (!loaded) loaded = std::make_shared<SceneData>(upload_scene(device, scene));
+    Geometry geometry = pose_geometry(device, programs, std::move(loaded), poses);
+    const Bounds bounds = geometry_bounds(device, programs, geometry, scene, poses);
     gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(scene, poses));
 
     // The camera's vertices and the sampler; then window by window its prisms and samples.
@@ -190,8 +223,8 @@ Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const
     frame.stats = statistics(device, shadows);
     shadows.report(frame);
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
-    frame.stats.counts["triangles"] = geometry.triangle_count;
-    frame.stats.counts["prisms"] = uint64_t(geometry.triangle_count) * geometry.segment_count;
+    frame.stats.counts["triangles"] = geometry.scene->triangle_count;
+    frame.stats.counts["prisms"] = uint64_t(geometry.scene->triangle_count) * geometry.segment_count;
     frame.stats.counts["bin_entries.camera"] = camera_entries;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
     frame.stats.counts["hits"] = sampler.hit_count();

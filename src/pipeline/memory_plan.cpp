@@ -40,17 +40,11 @@ std::vector<SceneBuffer> scene_buffers(const Scene& scene, uint64_t keys) {
             {"normals (vertices times poses)", vertices * keys, 16, kFewerKeys},
             {"vertex attributes", 2 * vertices, 16, kSmallerScene},
             {"materials", 2 * scene.materials.size(), 16, kSmallerScene},
-            {"texels of decoded textures, four at a time,", (texels + 3) / 4, 16, "use smaller or fewer textures"}};
-}
-
-// What is there only while the scene is posed.
-std::vector<SceneBuffer> posing_buffers(const Scene& scene, uint64_t keys, const Pose& pose) {
-    return {{"vertices at rest", 3 * scene.vertices.size(), 16, kSmallerScene},
+            {"texels of decoded textures, four at a time,", (texels + 3) / 4, 16, "use smaller or fewer textures"},
+            {"vertices at rest", 3 * vertices, 16, kSmallerScene},
             {"joint weights", scene.influences.size(), 8, kSmallerScene},
             {"morph target positions", scene.morph_positions.size(), 16, kSmallerScene},
-            {"morph target normals", scene.morph_normals.size(), 16, kSmallerScene},
-            {"matrices", pose.palette.size() * keys, 16, kFewerKeys},
-            {"morph weights", pose.morph_weights.size() * keys, 4, kFewerKeys}};
+            {"morph target normals", scene.morph_normals.size(), 16, kSmallerScene}};
 }
 
 uint64_t bytes_of(const std::vector<SceneBuffer>& buffers) {
@@ -61,19 +55,16 @@ uint64_t bytes_of(const std::vector<SceneBuffer>& buffers) {
 
 }  // namespace
 
-void check_scene(const gpu::Device& device, const Scene& scene, const std::vector<Pose>& poses, uint64_t budget) {
+void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, uint64_t budget) {
     const gpu::Limits& limits = device.limits();
-    const std::vector<SceneBuffer> kept = scene_buffers(scene, poses.size());
-    const std::vector<SceneBuffer> posing = posing_buffers(scene, poses.size(), poses.front());
-    for (const std::vector<SceneBuffer>* buffers : {&kept, &posing}) {
-        for (const SceneBuffer& b : *buffers) {
-            const uint64_t most = std::min(limits.most_elements(b.bytes), limits.max_buffer_bytes / b.bytes - 1);
-            if (b.elements <= most) continue;
-            throw Error(ErrorKind::out_of_memory,
-                        std::to_string(b.elements) + " " + b.what + " are more than the " + std::to_string(most) +
-                            " that the device can bind",
-                        scene.path.string(), b.hint);
-        }
+    const std::vector<SceneBuffer> buffers = scene_buffers(scene, keys);
+    for (const SceneBuffer& b : buffers) {
+        const uint64_t most = std::min(limits.most_elements(b.bytes), limits.max_buffer_bytes / b.bytes - 1);
+        if (b.elements <= most) continue;
+        throw Error(ErrorKind::out_of_memory,
+                    std::to_string(b.elements) + " " + b.what + " are more than the " + std::to_string(most) +
+                        " that the device can bind",
+                    scene.path.string(), b.hint);
     }
     uint32_t targets = 0, influences = 0;
     for (const Morph& morph : scene.morphs) targets = std::max(targets, morph.target_count);
@@ -83,8 +74,8 @@ void check_scene(const gpu::Device& device, const Scene& scene, const std::vecto
                     "use fewer than " + std::to_string(shared::kMostTurns - influences));
     }
     // The camera's view of the vertices, and one light's.
-    const uint64_t views = (scene.lights.empty() ? 1 : 2) * kept[1].elements * kept[1].bytes;
-    const uint64_t needed = bytes_of(kept) + std::max(bytes_of(posing), views) + kLeastWorkBytes;
+    const uint64_t views = (scene.lights.empty() ? 1 : 2) * buffers[1].elements * buffers[1].bytes;
+    const uint64_t needed = bytes_of(buffers) + views + kLeastWorkBytes;
     if (needed <= budget) return;
     const uint64_t mebibytes = needed / (1u << 20) + 1;
     throw Error(ErrorKind::out_of_memory, "the scene's own data takes " + std::to_string(mebibytes) + " MiB of device memory",

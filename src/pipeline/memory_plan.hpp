@@ -11,7 +11,7 @@ namespace gnomon {
 
 /// That the scene's own data can be bound and fits into the budget, beside a little to work with; everything else is cut to
 /// fit. Errors: ErrorKind::out_of_memory, saying how much would do.
-void check_scene(const gpu::Device& device, const Scene& scene, const std::vector<Pose>& poses, uint64_t budget);
+void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, uint64_t budget);
 
 /// Nothing moves between the poses: no vertex, camera or light.
 bool is_still(const std::vector<Pose>& poses);

@@ -28,7 +28,7 @@ const gpu::Program& Programs::get(const std::string& name, const std::vector<uin
         std::vector<gpu::Constant> values;
         for (uint32_t value : constants) values.push_back({static_cast<uint32_t>(values.size()), value});
         auto added = added_.find(name);
-        const char* variant = device_.limits().storage_reads ? "+storage" : "";
+        const char* variant = device_.limits().storage_reads() ? "+storage" : "";
         gpu::Shader shader = added == added_.end() ? find_shader(name + variant) : gpu::Shader{name, added->second};
         found = programs_.emplace(key, device_.program(shader, values)).first;
     }

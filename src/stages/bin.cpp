@@ -57,7 +57,7 @@ public:
         const uint64_t most =
             std::max<uint64_t>(kTriangleAlign, bytes / (cells * sizeof(glm::uvec2)) & ~(kTriangleAlign - 1ull));
         chunk_ = static_cast<uint32_t>(
-            std::min<uint64_t>(most, groups_of(geometry.triangle_count, kTriangleAlign) * kTriangleAlign));
+            std::min<uint64_t>(most, groups_of(geometry.scene->triangle_count, kTriangleAlign) * kTriangleAlign));
         // Blocks of a part of one cell's triangles fit into one binding even if all are as large as can be.
         most_blocks_ = static_cast<uint32_t>(bytes / sizeof(glm::uvec2));
         part_log2_ = static_cast<uint32_t>(std::bit_width(std::max(kTriangleAlign, most_blocks_ / shared::kMostBlocks)) - 1);
@@ -88,7 +88,7 @@ private:
         recorder.fill("setup/prisms", block_counts_, 0);
         for (uint32_t cell = 0; cell < cells; ++cell) {
             recorder.dispatch("setup/prisms", programs_.get("setup/prisms"),
-                              bindings({{"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                              bindings({{"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                         {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                         {"Rects", &rects_, {}, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
                                         {"BlockCounts", &block_counts_}}),
@@ -144,7 +144,7 @@ private:
         recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs_.get("bin/large", {fill, by_bounds_}),
                           bindings({{"blocks", &blocks_, Texel::rg32_uint},
                                     {"rects", &rects_, Texel::rg32_uint},
-                                    {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                    {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                     {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                     {"Lists", &lists},
                                     {"Entries", &entries}}),
@@ -186,7 +186,7 @@ Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geo
                  0,
                  cell_count,
                  geometry.segment_count,
-                 geometry.triangle_count,
+                 geometry.scene->triangle_count,
                  geometry.vertex_stride};
     const uint64_t stride = geometry.vertex_stride;
     bins.raster_vertices = device.allocate("raster_vertices", stride * view.keys.size() * sizeof(glm::vec4));

@@ -4,6 +4,7 @@
 #include <bit>
 #include <numeric>
 
+#include "math/order.h"
 #include "shared/params.h"
 #include "stages/grid.hpp"
 
@@ -31,19 +32,19 @@ std::vector<glm::vec4> padded(const std::vector<glm::vec3>& values) {
     return result;
 }
 
-void upload_surfaces(gpu::Device& device, const Scene& scene, Geometry& geometry) {
+void upload_surfaces(gpu::Device& device, const Scene& scene, SceneData& data) {
     std::vector<glm::uvec4> triangles;
     for (const Triangle& t : scene.triangles) triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2], t.material);
     triangles.emplace_back(0u, 0u, 0u, 0u);
-    geometry.triangles = gpu::upload_new(device, "triangles", triangles);
+    data.triangles = gpu::upload_new(device, "triangles", triangles);
 
     std::vector<glm::vec4> attributes;
     for (const Vertex& v : scene.vertices) {
         attributes.emplace_back(v.uv, 0.0f, 0.0f);
         attributes.push_back(v.color);
-        geometry.smooth = geometry.smooth || v.normal != glm::vec3(0.0f);
+        data.smooth = data.smooth || v.normal != glm::vec3(0.0f);
     }
-    geometry.attributes = gpu::upload_new(device, "attributes", attributes);
+    data.attributes = gpu::upload_new(device, "attributes", attributes);
 
     std::vector<uint32_t> texels;
     std::vector<uint32_t> first_texel;
@@ -54,7 +55,7 @@ void upload_surfaces(gpu::Device& device, const Scene& scene, Geometry& geometry
                              static_cast<uint32_t>(image.rgba[i + 2]) << 16 | static_cast<uint32_t>(image.rgba[i + 3]) << 24);
         }
     }
-    geometry.texels = gpu::upload_new(device, "texels", texels);
+    data.texels = gpu::upload_new(device, "texels", texels);
 
     std::vector<glm::uvec4> materials;
     for (const Material& m : scene.materials) {
@@ -65,42 +66,54 @@ void upload_surfaces(gpu::Device& device, const Scene& scene, Geometry& geometry
             const Image& image = scene.images[static_cast<size_t>(m.image)];
             uint32_t wrap = static_cast<uint32_t>(m.wrap_u) | static_cast<uint32_t>(m.wrap_v) << 2;
             materials.emplace_back(first_texel[static_cast<size_t>(m.image)], image.width, image.height, wrap);
-            geometry.textured = true;
+            data.textured = true;
         }
     }
-    geometry.materials = gpu::upload_new(device, "materials", materials);
+    data.materials = gpu::upload_new(device, "materials", materials);
 }
 
 }  // namespace
+
+SceneData upload_scene(gpu::Device& device, const Scene& scene) {
+    SceneData data;
+    data.triangle_count = static_cast<uint32_t>(scene.triangles.size());
+    data.vertex_count = static_cast<uint32_t>(scene.vertices.size());
+    upload_surfaces(device, scene, data);
+    std::vector<glm::uvec2> influences;
+    for (const Influence& i : scene.influences) influences.emplace_back(i.matrix, bits(i.weight));
+    data.rest = gpu::upload_new(device, "rest", rest_vertices(scene));
+    data.influences = gpu::upload_new(device, "influences", influences);
+    data.morph_positions = gpu::upload_new(device, "morph_positions", padded(scene.morph_positions));
+    data.morph_normals = gpu::upload_new(device, "morph_normals", padded(scene.morph_normals));
+    return data;
+}
 
 std::vector<VertexRun> vertex_runs(const gpu::Device& device, const Geometry& geometry) {
     constexpr uint64_t kAlign = 64;  // 1024 bytes, which any device can bind from.
     const uint64_t most = std::max(kAlign, device.limits().max_storage_range / sizeof(glm::vec4) / kAlign * kAlign);
     std::vector<VertexRun> runs;
-    for (uint64_t first = 0; first < geometry.vertex_count; first += most) {
-        runs.push_back({static_cast<uint32_t>(first), static_cast<uint32_t>(std::min(most, geometry.vertex_count - first))});
+    for (uint64_t first = 0; first < geometry.scene->vertex_count; first += most) {
+        runs.push_back(
+            {static_cast<uint32_t>(first), static_cast<uint32_t>(std::min(most, geometry.scene->vertex_count - first))});
     }
     return runs;
 }
 
 Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& scene, const std::vector<Pose>& poses) {
+    return pose_geometry(device, programs, std::make_shared<SceneData>(upload_scene(device, scene)), poses);
+}
+
+Geometry pose_geometry(gpu::Device& device, Programs& programs, std::shared_ptr<const SceneData> scene,
+                       const std::vector<Pose>& poses) {
     using gpu::Texel;
     // Each key is bound on its own, so its first byte must lie on the device's alignments.
     uint64_t alignment = std::lcm(device.limits().storage_alignment, device.limits().texel_alignment);
     uint32_t step = static_cast<uint32_t>(std::max<uint64_t>(1, alignment / sizeof(glm::vec4)));
+    const SceneData& data = *scene;
     Geometry geometry;
-    geometry.triangle_count = static_cast<uint32_t>(scene.triangles.size());
-    geometry.vertex_count = static_cast<uint32_t>(scene.vertices.size());
-    geometry.vertex_stride = (geometry.vertex_count + step - 1) / step * step;
+    geometry.scene = std::move(scene);
+    geometry.vertex_stride = (data.vertex_count + step - 1) / step * step;
     geometry.segment_count = static_cast<uint32_t>(poses.size()) - 1;
-    upload_surfaces(device, scene, geometry);
-
-    std::vector<glm::uvec2> influence_words;
-    for (const Influence& i : scene.influences) influence_words.emplace_back(i.matrix, bits(i.weight));
-    gpu::Buffer rest = gpu::upload_new(device, "rest", rest_vertices(scene));
-    gpu::Buffer influences = gpu::upload_new(device, "influences", influence_words);
-    gpu::Buffer morph_positions = gpu::upload_new(device, "morph_positions", padded(scene.morph_positions));
-    gpu::Buffer morph_normals = gpu::upload_new(device, "morph_normals", padded(scene.morph_normals));
 
     uint64_t key_bytes = uint64_t(geometry.vertex_stride) * sizeof(glm::vec4);
     geometry.positions = device.allocate("positions", key_bytes * poses.size());
@@ -114,11 +127,11 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& sce
         for (const VertexRun& run : runs) {
             const uint64_t offset = k * key_bytes + run.first * sizeof(glm::vec4), bytes = run.count * sizeof(glm::vec4);
             recorder.dispatch("pose", programs.get("pose/pose"),
-                              bindings({{"rest", &rest, Texel::rgba32_uint},
-                                        {"influences", &influences, Texel::rg32_uint},
+                              bindings({{"rest", &data.rest, Texel::rgba32_uint},
+                                        {"influences", &data.influences, Texel::rg32_uint},
                                         {"palette", &palettes.back(), Texel::rgba32_float},
-                                        {"morph_positions", &morph_positions, Texel::rgba32_float},
-                                        {"morph_normals", &morph_normals, Texel::rgba32_float},
+                                        {"morph_positions", &data.morph_positions, Texel::rgba32_float},
+                                        {"morph_normals", &data.morph_normals, Texel::rgba32_float},
                                         {"morph_weights", &weights.back(), Texel::r32_float},
                                         {"Positions", &geometry.positions, {}, offset, bytes},
                                         {"Normals", &geometry.normals, {}, offset, bytes}}),
@@ -127,6 +140,32 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& sce
     }
     recorder.submit();
     return geometry;
+}
+
+Bounds geometry_bounds(gpu::Device& device, Programs& programs, const Geometry& geometry, const Scene& scene,
+                       const std::vector<Pose>& poses) {
+    struct Box {
+        glm::uvec3 lower{0xffffffffu};
+        glm::uvec3 upper{0};
+        uint32_t not_finite = 0;
+    };
+    const gpu::Buffer box = gpu::upload_new(device, "bounds", std::vector<Box>(1));
+    const SceneData& data = *geometry.scene;
+    gpu::Recorder recorder(device);
+    recorder.dispatch("pose/bounds", programs.get("pose/bounds"),
+                      bindings({{"triangles", &data.triangles, gpu::Texel::rgba32_uint},
+                                {"positions", &geometry.positions, gpu::Texel::rgba32_float},
+                                {"Box", &box}}),
+                      shared::BoundsParams{data.triangle_count, geometry.vertex_stride, geometry.segment_count + 1},
+                      groups_of(data.triangle_count, 64 * shared::kBoundsRun));
+    recorder.submit();
+    const Box found = gpu::download_vector<Box>(device, box, 1)[0];
+    if (found.not_finite != 0) bounds_of(scene, poses);  // Which says where.
+    const auto place = [](const glm::uvec3& ordered) {
+        return glm::vec3(shared::from_ordered_bits(ordered.x), shared::from_ordered_bits(ordered.y),
+                         shared::from_ordered_bits(ordered.z));
+    };
+    return {place(found.lower), place(found.upper)};
 }
 
 }  // namespace gnomon

@@ -49,7 +49,7 @@ private:
 std::vector<gpu::Binding> bin_bindings(const Geometry& geometry, const Bins& bins) {
     return bindings({{"bin_offsets", &bins.offsets, Texel::r32_uint},
                      {"bin_entries", &bins.entries, Texel::r32_uint},
-                     {"triangles", &geometry.triangles, Texel::rgba32_uint},
+                     {"triangles", &geometry.scene->triangles, Texel::rgba32_uint},
                      {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float}});
 }
 

@@ -91,7 +91,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     const uint64_t slots = settings_.most_slots;
     std::vector<gpu::Binding> all = {{"queue", &queue_, Texel::r32_uint},
                                      {"hits", &tracer_.hits(), Texel::r32_uint},
-                                     {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                                     {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                      {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
                                      {"positions", &geometry_.positions, Texel::rgba32_float},
@@ -162,27 +162,28 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
 void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
     gpu::Recorder recorder(device_);
     if (!lit_written_) recorder.fill("sample/shade", lit_, all_lit());
-    recorder.dispatch("sample/shade",
-                      programs_.get("sample/shade", {view_.orthographic, tracer_.straddle(), settings_.keep_depths,
-                                                     geometry_.textured, geometry_.smooth, lights_move, settings_.fractional}),
-                      bindings({{"hits", &tracer_.hits(), Texel::r32_uint},
-                                {"lit", &lit_, Texel::r32_uint},
-                                {"triangles", &geometry_.triangles, Texel::rgba32_uint},
-                                {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                {"positions", &geometry_.positions, Texel::rgba32_float},
-                                {"normals", &geometry_.normals, Texel::rgba32_float},
-                                {"attributes", &geometry_.attributes, Texel::rgba32_float},
-                                {"materials", &geometry_.materials, Texel::rgba32_uint},
-                                {"texels", &geometry_.texels, Texel::rgba32_uint},
-                                {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
-                                {"lights", &lights, Texel::rgba32_float},
-                                {"Film", &film_},
-                                {"Depths", &depth_values_}}),
-                      shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first,
-                                          batch_.stratum_count, settings_.spp, shared::stratum_length(settings_.spp),
-                                          settings_.seed, settings_.light_count, static_cast<uint32_t>(view_.keys.size()),
-                                          film_px_.x, film_px_.x * film_px_.y, static_cast<uint32_t>(settings_.most_slots)},
-                      batch_.tile_count);
+    recorder.dispatch(
+        "sample/shade",
+        programs_.get("sample/shade", {view_.orthographic, tracer_.straddle(), settings_.keep_depths, geometry_.scene->textured,
+                                       geometry_.scene->smooth, lights_move, settings_.fractional}),
+        bindings({{"hits", &tracer_.hits(), Texel::r32_uint},
+                  {"lit", &lit_, Texel::r32_uint},
+                  {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
+                  {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                  {"positions", &geometry_.positions, Texel::rgba32_float},
+                  {"normals", &geometry_.normals, Texel::rgba32_float},
+                  {"attributes", &geometry_.scene->attributes, Texel::rgba32_float},
+                  {"materials", &geometry_.scene->materials, Texel::rgba32_uint},
+                  {"texels", &geometry_.scene->texels, Texel::rgba32_uint},
+                  {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
+                  {"lights", &lights, Texel::rgba32_float},
+                  {"Film", &film_},
+                  {"Depths", &depth_values_}}),
+        shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count,
+                            settings_.spp, shared::stratum_length(settings_.spp), settings_.seed, settings_.light_count,
+                            static_cast<uint32_t>(view_.keys.size()), film_px_.x, film_px_.x * film_px_.y,
+                            static_cast<uint32_t>(settings_.most_slots)},
+        batch_.tile_count);
     recorder.submit();
 }
 

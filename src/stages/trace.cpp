@@ -39,7 +39,7 @@ void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
             programs_.get("sample/trace", {view_.orthographic, straddle_, first > 0, sampling_.sliced, programs_.crew()}),
             bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
                       {"bin_entries", &bins_.entries, Texel::r32_uint},
-                      {"triangles", &geometry_.triangles, Texel::rgba32_uint},
+                      {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                       {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                       {"Hits", &hits_},
                       {"Ticket", &ticket_}}),

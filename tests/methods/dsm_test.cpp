@@ -192,11 +192,13 @@ TEST_F(DsmFramesTest, EmptyPartsOfTheMapLeaveTheOthersAsTheyAre) {
     EXPECT_LT(std::fabs(error(frame, render("exact"), false).bias), 0.03);
 }
 
-TEST_F(DsmFramesTest, BatchesDoNotMatterAndTooLittleMemoryIsSaid) {
+TEST_F(DsmFramesTest, BatchesAndWindowsDoNotMatterAndTooLittleMemoryIsSaid) {
     const Frame expected = render("dsm");
     settings.memory_budget = expected.stats.peak_bytes + (1u << 20);
     expect_same_bits(render("dsm"), expected);
-    settings.memory_budget = 8u << 20;
+    settings.memory_budget = 16u << 20;
+    expect_same_bits(render("dsm"), expected);
+    settings.memory_budget = 1u << 20;
     EXPECT_THROW(render("dsm"), gnomon::Error);
 }
 

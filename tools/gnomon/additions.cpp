@@ -38,10 +38,12 @@ Additions::Additions(const Scene& scene, const AnimationChoice& animation, const
     }
 }
 
-void Additions::apply(Scene& scene, std::vector<Pose>& poses) const {
+Scene Additions::apply(Scene scene) const {
+    std::vector<Pose> poses;  // They are of the rig, too.
     if (framed_) add_default_camera(scene, poses, *framed_, aspect_);
     if (light_) add_default_light(scene, poses);
     if (ground_) add_ground(scene, poses, ground_->center_xz, ground_->y, ground_->half_size);
+    return scene;
 }
 
 }  // namespace gnomon::cli

@@ -19,8 +19,8 @@ public:
 
     bool empty() const { return !framed_ && !light_ && !ground_; }
 
-    /// Add to the scene and to its poses of one frame; the scene's warnings then say what.
-    void apply(Scene& scene, std::vector<Pose>& poses) const;
+    /// The scene with them, which do not move; its warnings then say what was added.
+    Scene apply(Scene scene) const;
 
 private:
     struct Ground {

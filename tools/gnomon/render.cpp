@@ -60,8 +60,9 @@ int render(const RenderOptions& options, bool quiet) {
     const std::vector<FrameJob> jobs = frame_jobs(options);
     check_outputs(jobs);
 
-    const Scene scene = load_scene(options.scene);
+    Scene scene = load_scene(options.scene);
     log_warnings(scene.warnings, 0);
+    const size_t warned = scene.warnings.size();
     const AnimationChoice animation = choose_animation(scene, options.animation);
     RenderSettings settings = options.settings;
     if (!options.camera.empty()) settings.camera = choose_camera(scene, options.camera);
@@ -74,18 +75,13 @@ int render(const RenderOptions& options, bool quiet) {
     const auto frame_count = static_cast<double>(jobs.size());
     ProgressBar bar(frame_samples * frame_count, quiet);
     int exit_code = kDone;
+    const Scene drawn = additions.empty() ? std::move(scene) : additions.apply(std::move(scene));
+    log_warnings(drawn.warnings, warned);
+    const LoadedScene loaded = renderer.load(drawn);
     for (size_t i = 0; i < jobs.size(); ++i) {
         const FrameJob& job = jobs[i];
-        std::vector<Pose> poses = pose_scene(scene, animation, job.shutter.open, job.shutter.close, options.time_steps);
-        Scene extended;
-        if (!additions.empty()) {
-            extended = scene;
-            additions.apply(extended, poses);
-        }
-        const Scene& drawn = additions.empty() ? scene : extended;
-        if (i == 0) log_warnings(drawn.warnings, scene.warnings.size());
-
-        const Frame frame = renderer.render(drawn, poses, settings, [&](double share) {
+        const std::vector<Pose> poses = pose_scene(drawn, animation, job.shutter.open, job.shutter.close, options.time_steps);
+        const Frame frame = renderer.render(loaded, poses, settings, [&](double share) {
             bar.update((static_cast<double>(i) + share) / frame_count);
             return !interrupted();
         });

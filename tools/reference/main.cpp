@@ -107,9 +107,10 @@ void run(Options options) {
 
     Scene scene = load_scene(o.scene);
     const AnimationChoice animation = choose_animation(scene, o.animation);
-    std::vector<Pose> poses = pose_scene(scene, animation, o.shutter.open, o.shutter.close, o.time_steps);
     if (!o.camera.empty()) r.camera = cli::choose_camera(scene, o.camera);
-    cli::Additions(scene, animation, o, {{{}, o.shutter, o.exr, {}, o.json}}).apply(scene, poses);
+    const cli::Additions additions(scene, animation, o, {{{}, o.shutter, o.exr, {}, o.json}});
+    scene = additions.apply(std::move(scene));
+    const std::vector<Pose> poses = pose_scene(scene, animation, o.shutter.open, o.shutter.close, o.time_steps);
 
     std::vector<std::string> warnings = scene.warnings;
     for (const std::string& warning : reference_warnings(scene)) warnings.push_back(warning);
