@@ -107,6 +107,7 @@ void Recorder::Impl::upload(const std::shared_ptr<Buffer::Impl>& buffer, std::sp
         return;
     }
     in_use.push_back(buffer);
+    stage_before({buffer.get(), offset, offset + data.size(), true});  // it may take staging memory, and free all
     const Memory& memory = staging();
     for (uint64_t at = 0; at < data.size();) {
         if (staged == kStagingBytes) flush();

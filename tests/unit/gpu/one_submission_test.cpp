@@ -80,8 +80,11 @@ TEST_P(OneSubmission, CopiesLargerThanTheStagingMemory) {
     recorder.upload(large, bytes_of(iota(count)));
     const Download all = recorder.download(large, 0, large.bytes());
     const Download part = recorder.download(large, 400, 8);
+    recorder.upload(large, bytes_of(iota(count, 5)));
+    const Download again = recorder.download(large, 0, large.bytes());
     recorder.fill("clear", large, 2);
     recorder.submit();
+    EXPECT_EQ(again.values<uint32_t>(), iota(count, 5));
     EXPECT_EQ(all.values<uint32_t>(), iota(count));
     EXPECT_THAT(part.values<uint32_t>(), testing::ElementsAre(100, 101));
     EXPECT_EQ(download_vector<uint32_t>(device, large, 1)[0], 2u);
