@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// 64-bit totals of ranges per block of items. Needs: buffer RangeCounts { uvec2 range_counts[]; } (low, high). All invocations of a subgroup give the same block.
+// 64-bit totals of ranges per block of items. Needs: a buffer with uvec2 range_counts[] (low, high). All invocations of a subgroup give the same block.
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 

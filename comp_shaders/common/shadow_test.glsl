@@ -22,6 +22,7 @@ layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
 READ_VEC4(8, positions)
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
 layout(binding = 9, scalar) buffer Ticket { uint ticket; };
+READ_UINT(11, runs)
 layout(push_constant, scalar) uniform Push { ShadowParams params; };
 #include "common/ticket.glsl"
 #include "common/triangle.glsl"
@@ -46,7 +47,10 @@ float occlusion_tolerance(Receiver h) {
     return max(max_of(abs(p.x), abs(p.y), abs(p.z)) * (1.0 / 1048576.0), params.tolerance);
 }
 
-// The hit of the queue that this invocation tests; there is none from params.hit_count on.
+// Of the queue.
+uint hit_count() { return fetch_runs(params.run_count); }
+
+// The hit of the queue that this invocation tests; there is none from hit_count on.
 uint take_hit() { return take_ticket() * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
 
 // A hit as the light's view holds it.
@@ -65,8 +69,8 @@ struct ShadowTest {
 // Hit `i` of the queue.
 ShadowTest shadow_test(uint i) {
     ShadowTest test;
-    bool inside = i < params.hit_count;
-    test.slot = fetch_queue(min(i, params.hit_count - 1u));
+    bool inside = i < hit_count();
+    test.slot = fetch_queue(inside ? i : 0u);
     test.own = fetch_hits(test.slot) & ~kReversed;
     Slot s = unpack_slot(test.slot, params.stratum_count);
     uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
@@ -115,7 +119,7 @@ ShadowTest shadow_test(uint i) {
 // Bits that are set: the lights that reach the hit, and all that have not been asked yet.
 void write_lit(uint i, ShadowTest test, bool shadowed) {
     if (kFirst) {
-        if (i < params.hit_count) lit[test.slot] = shadowed ? ~(1u << params.light) : 0xffffffffu;
+        if (i < hit_count()) lit[test.slot] = shadowed ? ~(1u << params.light) : 0xffffffffu;
     } else if (shadowed) {
         lit[test.slot] &= ~(1u << params.light);
     }

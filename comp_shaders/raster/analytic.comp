@@ -3,7 +3,7 @@
 // Purpose: the ranges of each texel at its centre: all stays of each triangle over it, with the depths at entry and exit. Count, or fill after the layout's own
 //          preparation. Depths are metres along the view's axis. Stays that begin and end behind the eye are none.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
-// Writes:  RangeCounts (64 bits per kCountBlock items), and what the layout says
+// Writes:  RasterCounts (ranges, 64 bits per kCountBlock items), and what the layout says
 // Grid:    one workgroup per tile and cell, one invocation per texel
 // Source:  math/interval.h
 #extension GL_GOOGLE_include_directive : require
@@ -17,8 +17,7 @@ READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
-layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
-layout(binding = 5, scalar) buffer Ticket { uint ticket; };
+layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"

@@ -3,7 +3,7 @@
 // Purpose: the ranges of each texel, conservative: every time at which a triangle may cover any point of the texel lies in its range, and its nearest depth is not
 //          behind the triangle anywhere. Count, or fill after the layout's own preparation.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
-// Writes:  RangeCounts (64 bits per kCountBlock items), and what the layout says
+// Writes:  RasterCounts (ranges, 64 bits per kCountBlock items), and what the layout says
 // Grid:    8 invocations per tile and cell: one per column of texels, the counts of its 8 rows in registers; they prepare the list's prisms for each other
 // Source:  math/texel_range.h
 #extension GL_GOOGLE_include_directive : require
@@ -18,8 +18,7 @@ READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
-layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
-layout(binding = 5, scalar) buffer Ticket { uint ticket; };
+layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"

@@ -9,6 +9,7 @@
 // Based on: Hong and Oh 2017, Extension; its second pass writes depth untested, so that its third, which tests it, meets the depth where the covering triangle goes
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
+layout(binding = 5, scalar) buffer Ticket { uint ticket; };
 #include "common/prism_texels.glsl"
 #include "math/order.h"
 

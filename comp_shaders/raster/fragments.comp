@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: the fragments of all prisms at each texel's centre, a linked list per texel and cell. Count, or fill. One prism's fragments lie side by side in a list.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices, coverage (with kCoverage: covered texels get none)
-// Writes:  RangeCounts (fragments; 64 bits per kCountBlock items); FragmentHeads, Fragments (metres, time in the cell, triangle, next or kNone), FragmentCount
+// Writes:  RasterCounts (fragments, 64 bits per kCountBlock items); FragmentHeads, Fragments (metres, time in the cell, triangle, next or kNone), FragmentCount
 // Grid:    8 invocations per tile and cell
 // Based on: Hong and Oh 2018, "Motion-blurred shadows utilizing a depth-time ranges shadow map", sections 4.1 and 4.2
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
+layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 #include "common/prism_texels.glsl"
 
 layout(constant_id = 3) const bool kCoverage = false;
-layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
 READ_UINT(6, coverage)
 layout(binding = 16, scalar) buffer FragmentHeads { uint fragment_heads[]; };
 layout(binding = 17, scalar) writeonly buffer Fragments { uvec4 fragments[]; };

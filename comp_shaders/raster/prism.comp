@@ -3,7 +3,7 @@
 // Purpose: the ranges of each texel from its fragments: one prism's, in the order of their depth, two and two. A fragment that is left over makes no range: its
 //          prism passes the eye. Count, or fill after the layout's own preparation.
 // Reads:   fragment_heads, fragments (raster/fragments)
-// Writes:  RangeCounts (64 bits per kCountBlock items), PairCounts (per kCountBlock items: fragments left over; prisms with more than four), Resume (with kResume: where
+// Writes:  RasterCounts (ranges, 64 bits per kCountBlock items), PairCounts (per kCountBlock items: fragments left over; prisms with more than four), Resume (with kResume: where
 //          each list's walk goes on), and what the layout says
 // Grid:    one workgroup per tile and cell, one invocation per texel
 // Based on: Hong and Oh 2018, "Motion-blurred shadows utilizing a depth-time ranges shadow map", section 4.3
@@ -18,8 +18,7 @@ READ_UINT(0, fragment_heads)
 READ_UVEC4(1, fragments)
 layout(binding = 2, scalar) buffer PairCounts { uvec2 pair_counts[]; };
 layout(binding = 3, scalar) buffer Resume { uint resume[]; };
-layout(binding = 4, scalar) buffer RangeCounts { uvec2 range_counts[]; };
-layout(binding = 5, scalar) buffer Ticket { uint ticket; };
+layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/ticket.glsl"
 #include "common/range_count.glsl"

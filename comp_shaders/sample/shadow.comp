@@ -54,7 +54,7 @@ void main() {
         }
     }
     // What is shadowed has no more to walk.
-    if (kResume && i < params.hit_count) {
+    if (kResume && i < hit_count()) {
         if (shadowed) {
             it = layout_end();
         }

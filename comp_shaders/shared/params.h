@@ -184,12 +184,13 @@ struct FssmMipParams {
 };
 
 struct CompactParams {
-    uint run_count;  // Runs of kScanRun samples.
+    uint run_count;   // Runs of kScanRun samples.
+    uint max_groups;  // Along one axis of a dispatch; of compact.
 };
 
 struct ShadowParams {
     ViewGrid camera;
-    uint hit_count;
+    uint run_count;  // The number of hits is behind so many sums of runs.
     uint tile_first;
     uint stratum_first;
     uint stratum_count;

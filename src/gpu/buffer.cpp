@@ -125,7 +125,11 @@ Buffer Device::allocate(const std::string& name, uint64_t bytes) {
                            "a buffer of this device has at most " + format_bytes(impl_->limits.max_buffer_bytes),
                            "use a lower --memory-budget");
     }
-    if (impl_->budget > 0 && (impl_->live_bytes > impl_->budget || bytes > impl_->budget - impl_->live_bytes)) {
+    const auto passes_budget = [&] {
+        return impl_->budget > 0 && (impl_->live_bytes > impl_->budget || bytes > impl_->budget - impl_->live_bytes);
+    };
+    if (passes_budget()) recorder().submit();
+    if (passes_budget()) {
         throw memory_error(*impl_, name, bytes, "it would pass the budget of " + format_bytes(impl_->budget),
                            "allow a larger --memory-budget");
     }

@@ -232,16 +232,22 @@ void Device::Impl::remove_live(const std::string& name, uint64_t bytes) {
     if (found->second == 0) live_by_name.erase(found);
 }
 
-void Device::Impl::add_stage_time(const std::string& stage, double seconds, uint64_t dispatches) {
+void Device::Impl::add_stage_time(const std::string& stage, double seconds, uint64_t dispatches, bool marked) {
     auto found =
         std::find_if(stage_times.begin(), stage_times.end(), [&](const StageTime& time) { return time.name == stage; });
     if (found == stage_times.end()) found = stage_times.insert(found, {.name = stage});
     found->seconds += seconds;
     found->dispatches += dispatches;
+    found->marked_seconds += marked ? seconds : 0.0;
 }
 
 Device::Device(const std::string& choice, bool validate) : impl_(std::make_shared<Impl>(choice, validate)) {}
 Device::~Device() = default;
+
+Recorder& Device::recorder() {
+    if (!recorder_) recorder_ = std::make_unique<Recorder>(*this);
+    return *recorder_;
+}
 
 const DeviceDescription& Device::description() const { return impl_->candidate.description; }
 const Limits& Device::limits() const { return impl_->limits; }
@@ -267,6 +273,7 @@ double Device::longest_dispatch_seconds() const { return impl_->longest_dispatch
 uint64_t Device::submissions() const { return impl_->submissions; }
 
 void Device::reset_statistics() {
+    recorder().submit();
     impl_->submissions = 0;
     impl_->longest_dispatch_seconds = 0.0;
     impl_->stage_times.clear();

@@ -109,9 +109,12 @@ struct StageTime {
     std::string name;
     double seconds = 0.0;
     uint64_t dispatches = 0;
+    double marked_seconds = 0.0;  ///< Of `seconds`, those of commands that were recorded while Recorder::mark was on.
 };
 
 std::vector<DeviceDescription> list_devices();
+
+class Recorder;
 
 class Device {
 public:
@@ -132,7 +135,12 @@ public:
     bool has_timestamps() const;
     const std::vector<std::string>& validation_messages() const;
 
-    /// Uninitialised memory, usable for storage, texel, uniform and transfer. bytes 0 gives the smallest buffer.
+    /// The recorder that all stages share: commands wait in it until somebody needs a result. upload, download and what is made
+    /// of them go through it.
+    Recorder& recorder();
+
+    /// Uninitialised memory, usable for storage, texel, uniform and transfer. bytes 0 gives the smallest buffer. Where the
+    /// budget would be passed, what waits in the recorder is run first, so that what only it still needs is given back.
     /// Errors: ErrorKind::out_of_memory naming the buffer and its size; also when the budget would be passed.
     Buffer allocate(const std::string& name, uint64_t bytes);
 
@@ -162,6 +170,7 @@ public:
 
 private:
     std::shared_ptr<Impl> impl_;
+    std::unique_ptr<Recorder> recorder_;
 };
 
 /// What a Recorder's download() reads.
@@ -233,11 +242,16 @@ public:
     /// past the end.
     void upload(const Buffer& buffer, std::span<const std::byte> data, uint64_t offset = 0);
     Download download(const Buffer& buffer, uint64_t offset, uint64_t bytes);
+    /// The same to `data`, at once: submits.
+    void download(const Buffer& buffer, std::span<std::byte> data, uint64_t offset);
 
     /// vkCmdFillBuffer; bytes 0: to the end. offset and bytes are multiples of 4.
     void fill(std::string_view stage, const Buffer& buffer, uint32_t value, uint64_t offset = 0, uint64_t bytes = 0);
     void copy(std::string_view stage, const Buffer& from, uint64_t from_offset, const Buffer& to, uint64_t to_offset,
               uint64_t bytes);
+
+    /// From here on commands count to StageTime::marked_seconds too, or do so no more. Returns what it was.
+    bool mark(bool on);
 
     /// Run what was recorded and wait. Errors: ErrorKind::device_lost, out_of_memory; internal for validation messages.
     void submit();
@@ -248,7 +262,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Write to and read from a buffer at once (mapped where the memory allows, else staged). Not while work is running.
+/// Write to a buffer, in its order among the commands of the device's recorder; read from it after all of them.
 void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset = 0);
 void download(Device& device, const Buffer& buffer, std::span<std::byte> data, uint64_t offset = 0);
 

@@ -2,6 +2,7 @@
 // What may be recorded, checked.
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "gpu/bindings.hpp"
 #include "gpu/recorder_impl.hpp"
@@ -111,7 +112,7 @@ void Recorder::dispatch_indirect_bytes(std::string_view stage, const Program& pr
     impl_->flush();
     const Grid grid = checked_arguments(stage, values->data, most_groups);
     if (grid.x == 0 || grid.y == 0) {
-        device.add_stage_time(std::string(stage), 0.0, 1);
+        device.add_stage_time(std::string(stage), 0.0, 1, impl_->marked);
     } else {
         add_grid(*impl_, stage, job, grid, bind);
     }
@@ -153,6 +154,14 @@ Download Recorder::download(const Buffer& buffer, uint64_t offset, uint64_t byte
     return download;
 }
 
+bool Recorder::mark(bool on) { return std::exchange(impl_->marked, on); }
+
+void Recorder::download(const Buffer& buffer, std::span<std::byte> data, uint64_t offset) {
+    const auto& source = checked_transfer(*impl_->device, buffer, offset, data.size(), "download");
+    if (!data.empty()) impl_->fetch(source, offset, data.size(), data.data(), nullptr);
+    submit();
+}
+
 void Recorder::submit() {
     impl_->flush();
     impl_->state->sets.reset();
@@ -169,18 +178,11 @@ std::span<const std::byte> Download::bytes() const {
 }
 
 void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset) {
-    const auto& target = checked_transfer(*device.impl(), buffer, offset, data.size(), "upload");
-    Recorder::Impl recorder(device.impl());
-    recorder.upload(target, data, offset);
-    recorder.flush();
+    device.recorder().upload(buffer, data, offset);
 }
 
 void download(Device& device, const Buffer& buffer, std::span<std::byte> data, uint64_t offset) {
-    const auto& source = checked_transfer(*device.impl(), buffer, offset, data.size(), "download");
-    if (data.empty()) return;
-    Recorder::Impl recorder(device.impl());
-    recorder.fetch(source, offset, data.size(), data.data(), nullptr);
-    recorder.flush();
+    device.recorder().download(buffer, data, offset);
 }
 
 }  // namespace gnomon::gpu

@@ -39,6 +39,7 @@ struct Recorder::Impl {
         double expected = 0.0;  // seconds
         uint64_t dispatches = 1;
         std::shared_ptr<Download::State> arguments;  // of an indirect dispatch
+        bool marked = false;
     };
     /// Bytes that the host is to get when the work is done.
     struct Fetch {
@@ -75,6 +76,7 @@ struct Recorder::Impl {
     std::shared_ptr<Device::Impl> device;
     std::unique_ptr<RecorderState> state;
     std::vector<std::shared_ptr<const void>> in_use;  // until submit()
+    bool marked = false;                              // see Recorder::mark
 
     // Since the last flush:
     bool recording = false;

@@ -13,7 +13,7 @@ namespace {
 constexpr uint64_t kStagingAlignment = 16;
 
 bool may_merge(const Recorder::Impl::Span& a, const Recorder::Impl::Span& b, double most_seconds) {
-    return a.stage == b.stage && a.pace_key == b.pace_key && !a.arguments && !b.arguments &&
+    return a.stage == b.stage && a.marked == b.marked && a.pace_key == b.pace_key && !a.arguments && !b.arguments &&
            a.expected + b.expected <= most_seconds;
 }
 
@@ -38,6 +38,7 @@ void Recorder::Impl::add(Span what, std::span<const Access> accesses, const Reco
         if (access.write) stage_before(access);
     }
     begin();
+    what.marked = marked;
     const VkCommandBuffer commands = state->commands.buffer;
     for (const Access& access : accesses) used.insert(access.buffer);
     expected += what.expected;
@@ -206,7 +207,7 @@ void Recorder::Impl::account(double wall_seconds) {
     const std::vector<double> seconds = state->timestamps.seconds_between();
     for (size_t i = 0; i < spans.size(); ++i) {
         const Span& span = spans[i];
-        if (!span.stage.empty()) device->add_stage_time(span.stage, seconds[i], span.dispatches);
+        if (!span.stage.empty()) device->add_stage_time(span.stage, seconds[i], span.dispatches, span.marked);
         if (span.pace_key.empty()) continue;
         uint64_t groups = span.groups;
         if (span.arguments) {

@@ -129,7 +129,7 @@ struct Device::Impl {
     void remove_live(const std::string& name, uint64_t bytes);
     /// ": name bytes, ..." of the largest live buffers.
     std::string describe_live() const;
-    void add_stage_time(const std::string& stage, double seconds, uint64_t dispatches);
+    void add_stage_time(const std::string& stage, double seconds, uint64_t dispatches, bool marked);
 
     Instance instance;
     Candidate candidate;

@@ -116,14 +116,13 @@ void DepthMap::fill(const Band& band) {
     base_ = static_cast<uint32_t>(band.range_first);
     samples_ = gpu::Buffer();
     samples_ = light_.device.allocate("map_samples", band.range_count * sample_bytes());
-    gpu::Recorder recorder(light_.device);
+    gpu::Recorder& recorder = light_.device.recorder();
     const uint32_t first = band.item_first / tile_count_, count = band.item_count / tile_count_;
     for (uint32_t s = 0; s < count; ++s) {
         record_depths(recorder, light_, bins_, tracer_, sampling_, sample_floats(),
                       {bins_.window.tile_first, tile_count_, first + s, 1}, samples_,
                       uint64_t(s) * tile_count_ * shared::kTileTexels);
     }
-    recorder.submit();
 }
 
 std::vector<gpu::Binding> DepthMap::read_bindings() const { return {{"map_samples", &samples_, Texel::r32_float}}; }

@@ -86,7 +86,7 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
                     "use a smaller --shadow-res or a larger --cluster");
     }
     clusters_ = device.allocate("clusters", cluster_count_ * sizeof(glm::vec2));
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     uint64_t at = 0;
     for (const Piece& piece : pieces) {
         const uint64_t bytes = piece.count * sizeof(glm::vec2);
@@ -94,7 +94,6 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
         at += bytes;
     }
     recorder.fill("map/cluster", offsets_, static_cast<uint32_t>(cluster_count_), texels * 4, 4);
-    recorder.submit();
 }
 
 // The clusters of some of the window's tiles, and their texels' offsets.
@@ -115,7 +114,7 @@ DeepShadowMap::Piece DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buf
         recorder.dispatch("map/cluster", light_.programs.get("methods/dsm/cluster", {fill}), all, params,
                           groups_of(texels, 64));
     };
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     record_depths(recorder, light_, bins_, tracer, sampling_, 1, batch, samples, 0);
     recorder.fill("map/cluster", counts, 0);
     record(recorder, false,
@@ -123,13 +122,11 @@ DeepShadowMap::Piece DeepShadowMap::make_clusters(Tracer& tracer, const gpu::Buf
             unbound_.at(0, "scanned", Texel::r32_uint),
             unbound_.at(1, "Clusters"),
             unbound_.at(2, "Offsets")});
-    const Scan scan = record_scan(device, light_.programs, recorder, counts, texels, sums);
-    recorder.submit();
+    record_scan(device, light_.programs, counts, texels, sums);
     const uint32_t found = gpu::download_vector<uint32_t>(device, sums, 1, uint64_t(texels) * 4)[0];
     gpu::Buffer clusters = device.allocate("cluster_pieces", found * sizeof(glm::vec2));
     record(recorder, true,
            {unbound_.at(0, "Counts"), {"scanned", &sums, Texel::r32_uint}, {"Clusters", &clusters}, {"Offsets", &offsets_}});
-    recorder.submit();
     cluster_count_ += found;
     return {std::move(clusters), found};
 }

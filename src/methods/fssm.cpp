@@ -186,12 +186,11 @@ void Fssm::fill(const Band& band) {
     tuples_ = device.allocate("fssm.tuples", (level_first_.back() + uint64_t(layers) * last_size * last_size) * kTupleBytes);
     samples_ = device.allocate("map_samples", window_texels(most) * sampling_.spp * kSampleBytes);
     Tracer tracer(device, light_.programs, light_.geometry, light_.view, bins_, "map/trace", sampling_, window_texels(most));
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     recorder.fill("map/reproject", tuples_, 0);
     for (uint32_t row = 0; row < rows.count; row += most) {
         fill_rows(recorder, tracer, {rows.first + row, std::min(most, rows.count - row)}, rows);
     }
-    recorder.submit();
     samples_ = gpu::Buffer();
 }
 

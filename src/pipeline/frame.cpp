@@ -85,10 +85,11 @@ std::vector<glm::vec4> light_records(const Scene& scene, const std::vector<Pose>
     return records;
 }
 
-FrameStats statistics(const gpu::Device& device, const Lights& lights) {
+FrameStats statistics(gpu::Device& device) {
+    device.recorder().submit();
     FrameStats stats;
     for (const gpu::StageTime& t : device.stage_times())
-        stats.stages.push_back({t.name, t.seconds, t.dispatches, lights.map_seconds(t.name)});
+        stats.stages.push_back({t.name, t.seconds, t.dispatches, t.marked_seconds});
     stats.buffer_bytes = device.largest_bytes();
     stats.peak_bytes = device.peak_bytes();
     stats.device = device.description().name;
@@ -220,15 +221,17 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     if (progress) progress(1.0);
     if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges();
 
-    frame.stats = statistics(device, shadows);
+    const uint64_t hits = sampler.hit_count();
+    frame.stats = statistics(device);
     shadows.report(frame);
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     frame.stats.counts["triangles"] = geometry.scene->triangle_count;
     frame.stats.counts["prisms"] = uint64_t(geometry.scene->triangle_count) * geometry.segment_count;
     frame.stats.counts["bin_entries.camera"] = camera_entries;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
-    frame.stats.counts["hits"] = sampler.hit_count();
-    frame.stats.counts["shadow_tests"] = sampler.shadow_counts().cast;
+    frame.stats.counts["hits"] = hits;
+    // Without the count: a test for each hit and light.
+    frame.stats.counts["shadow_tests"] = settings.count_ranges ? sampler.shadow_counts().cast : hits * shadows.map_count();
     frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;
     frame.stats.counts["ranges_tested"] = sampler.shadow_counts().tested;
     frame.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

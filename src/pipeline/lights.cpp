@@ -72,19 +72,23 @@ bool Lights::release_others(size_t light) {
 
 template <class Work>
 bool Lights::with_room(size_t light, Work work) {
-    for (;;) {
+    gpu::Recorder& recorder = shared_.device.recorder();
+    const bool marked = recorder.mark(true);
+    bool fits = false, more = true;
+    while (!fits && more) {
         try {
-            for (const gpu::StageTime& t : shared_.device.stage_times()) seconds_[t.name] -= t.seconds;
             work();
-            for (const gpu::StageTime& t : shared_.device.stage_times()) seconds_[t.name] += t.seconds;
-            return true;
+            fits = true;
         } catch (const Error& error) {
-            for (const gpu::StageTime& t : shared_.device.stage_times()) seconds_[t.name] += t.seconds;
+            recorder.mark(marked);
             if (error.kind() != ErrorKind::out_of_memory) throw;
             failure_ = std::current_exception();
+            recorder.mark(true);
+            more = release_others(light);
         }
-        if (!release_others(light)) return false;
     }
+    recorder.mark(marked);
+    return fits;
 }
 
 uint64_t Lights::share() const {
@@ -161,11 +165,6 @@ void Lights::report(Frame& frame) const {
         }
         for (const auto& [name, value] : light.effective) frame.effective[name] = value;
     }
-}
-
-double Lights::map_seconds(const std::string& stage) const {
-    const auto found = seconds_.find(stage);
-    return found == seconds_.end() ? 0.0 : found->second;
 }
 
 std::vector<std::vector<uint32_t>> Lights::texel_ranges() {

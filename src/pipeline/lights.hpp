@@ -41,8 +41,7 @@ public:
 
     /// Write counts, by "name.light", and what was really used.
     void report(Frame& frame) const;
-    /// Seconds of a stage that went into what the shadow tests read.
-    double map_seconds(const std::string& stage) const;
+    size_t map_count() const { return lights_.size(); }
     /// As Frame::texel_ranges.
     std::vector<std::vector<uint32_t>> texel_ranges();
 
@@ -58,7 +57,8 @@ private:
     void make(size_t light, size_t window);
     void make_map(size_t light, const Window& window);
     bool release_others(size_t light);
-    /// Run the work; where it does not fit into memory, release the other lights and try again. False where that is in vain.
+    /// Record the work, which counts to the lights' maps; where it does not fit into memory, release the other lights and try
+    /// again. False where that is in vain.
     template <class Work>
     bool with_room(size_t light, Work work);
     uint64_t share() const;  ///< Bytes for the bands of one light.
@@ -68,7 +68,6 @@ private:
     std::vector<Light> lights_;
     std::vector<LightContext> contexts_;  ///< Of each light; its map refers to it.
     std::exception_ptr failure_;          ///< Why something did not fit.
-    std::map<std::string, double> seconds_;
 };
 
 }  // namespace gnomon

@@ -67,15 +67,13 @@ public:
         block_cursor_ = device.allocate("block_cursor", 4);
     }
 
-    /// One pass over all prisms. fill: the lists' cursors and entries, else only their counts. What was recorded before runs
-    /// before; the last commands are left to the caller to run.
-    void run(gpu::Recorder& recorder, bool fill, const gpu::Buffer& lists, const gpu::Buffer& entries) {
+    /// One pass over all prisms. fill: the lists' cursors and entries, else only their counts.
+    void run(bool fill, const gpu::Buffer& lists, const gpu::Buffer& entries) {
         for (uint32_t first = 0; first < bins_.grid.triangle_count; first += chunk_) {
             const Run chunk{first, std::min(chunk_, bins_.grid.triangle_count - first)};
-            if (!is_set_up(chunk)) set_up(recorder, chunk);
-            for (uint32_t cell = 0; cell < bins_.grid.cell_count; ++cell)
-                list_small(recorder, fill, chunk, cell, lists, entries);
-            for (const BlockPass& pass : passes_) list_large(recorder, fill, chunk, pass, lists, entries);
+            if (!is_set_up(chunk)) set_up(chunk);
+            for (uint32_t cell = 0; cell < bins_.grid.cell_count; ++cell) list_small(fill, chunk, cell, lists, entries);
+            for (const BlockPass& pass : passes_) list_large(fill, chunk, pass, lists, entries);
         }
     }
 
@@ -83,7 +81,8 @@ private:
     bool is_set_up(const Run& chunk) const { return chunk_in_memory_.count > 0 && chunk.first == chunk_in_memory_.first; }
 
     // The rectangles of a chunk, and how its blocks are cut into passes.
-    void set_up(gpu::Recorder& recorder, const Run& chunk) {
+    void set_up(const Run& chunk) {
+        gpu::Recorder& recorder = device_.recorder();
         const uint32_t cells = bins_.grid.cell_count;
         recorder.fill("setup/prisms", block_counts_, 0);
         for (uint32_t cell = 0; cell < cells; ++cell) {
@@ -96,11 +95,10 @@ private:
                                                   rect_.first_tile, rect_.last_tile},
                               groups_of(chunk.count, 64));
         }
-        recorder.submit();
+        const std::vector<uint32_t> counts = gpu::download_vector<uint32_t>(device_, block_counts_, uint64_t(cells) * parts_);
         chunk_in_memory_ = chunk;
         passes_.clear();
         uint32_t most = 0;
-        const std::vector<uint32_t> counts = gpu::download_vector<uint32_t>(device_, block_counts_, uint64_t(cells) * parts_);
         for (uint32_t cell = 0; cell < cells; ++cell) {
             for (uint32_t part = 0; part < parts_; ++part) {
                 const uint32_t blocks = counts[cell * parts_ + part];
@@ -120,17 +118,18 @@ private:
         }
     }
 
-    void list_small(gpu::Recorder& recorder, bool fill, const Run& chunk, uint32_t cell, const gpu::Buffer& lists,
-                    const gpu::Buffer& entries) const {
-        recorder.dispatch(fill ? "bin/fill" : "bin/count", programs_.get("bin/small", {fill, by_bounds_}),
-                          bindings({{"rects", &rects_, Texel::rg32_uint, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
-                                    {"Lists", &lists},
-                                    {"Entries", &entries}}),
-                          shared::BinParams{bins_.grid, cell, chunk.first, chunk.count, 0, 0, 0}, groups_of(chunk.count, 64));
+    void list_small(bool fill, const Run& chunk, uint32_t cell, const gpu::Buffer& lists, const gpu::Buffer& entries) const {
+        device_.recorder().dispatch(fill ? "bin/fill" : "bin/count", programs_.get("bin/small", {fill, by_bounds_}),
+                                    bindings({{"rects", &rects_, Texel::rg32_uint, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
+                                              {"Lists", &lists},
+                                              {"Entries", &entries}}),
+                                    shared::BinParams{bins_.grid, cell, chunk.first, chunk.count, 0, 0, 0},
+                                    groups_of(chunk.count, 64));
     }
 
-    void list_large(gpu::Recorder& recorder, bool fill, const Run& chunk, const BlockPass& pass, const gpu::Buffer& lists,
+    void list_large(bool fill, const Run& chunk, const BlockPass& pass, const gpu::Buffer& lists,
                     const gpu::Buffer& entries) const {
+        gpu::Recorder& recorder = device_.recorder();
         recorder.fill("bin/blocks", block_cursor_, 0);
         for (const BlockPass::Piece& piece : pass.pieces) {
             recorder.dispatch("bin/blocks", programs_.get("bin/blocks"),
@@ -190,7 +189,7 @@ Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geo
                  geometry.vertex_stride};
     const uint64_t stride = geometry.vertex_stride;
     bins.raster_vertices = device.allocate("raster_vertices", stride * view.keys.size() * sizeof(glm::vec4));
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     for (size_t k = 0; k < view.keys.size(); ++k) {
         const ViewKey& key = view.keys[k];
         for (const VertexRun& run : vertex_runs(device, geometry)) {
@@ -205,7 +204,6 @@ Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geo
                 params, groups_of(run.count, 64));
         }
     }
-    recorder.submit();
     return bins;
 }
 
@@ -223,21 +221,22 @@ void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geomet
     gpu::Buffer cursors = device.allocate("bin_cursors", scan_bytes(list_count));  // First the counts.
     Lister lister(device, programs, geometry, view, listing, bins);
 
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     recorder.fill("bin/count", cursors, 0);
     const gpu::Buffer no_entries = device.allocate("bin_entries", 4);
-    lister.run(recorder, false, cursors, no_entries);
-    const Scan scan = record_scan(device, programs, recorder, cursors, static_cast<uint32_t>(list_count), bins.offsets);
+    lister.run(false, cursors, no_entries);
+    const Scan scan = record_scan(device, programs, cursors, static_cast<uint32_t>(list_count), bins.offsets);
     recorder.copy("bin/fill", bins.offsets, 0, cursors, 0, scan_bytes(list_count));
+    const gpu::Download total = recorder.download(bins.offsets, list_count * 4, 4);
+    const gpu::Download longest = recorder.download(scan.longest, 0, 4);
     recorder.submit();
-    bins.entry_count = gpu::download_vector<uint32_t>(device, bins.offsets, 1, list_count * 4)[0];
-    bins.longest = longest_of(device, scan);
+    bins.entry_count = total.values<uint32_t>()[0];
+    bins.longest = longest.values<uint32_t>()[0];
     if (bins.entry_count == shared::kNone) fail_lists(view, "more than 2^32 prisms");
     if (bins.entry_count > std::min(limits.max_storage_range / 4, limits.most_elements(4)))
         fail_lists(view, std::to_string(bins.entry_count) + " prisms");
     bins.entries = device.allocate("bin_entries", uint64_t(bins.entry_count) * 4);
-    if (bins.entry_count > 0) lister.run(recorder, true, cursors, bins.entries);
-    recorder.submit();
+    if (bins.entry_count > 0) lister.run(true, cursors, bins.entries);
 }
 
 Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,

@@ -22,7 +22,7 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometr
     map.nearest_triangles = device.allocate("nearest_triangles", bytes);
     map.coverage = device.allocate("coverage", bytes);
     const gpu::Buffer ticket = device.allocate("ticket", 4);
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     for (const gpu::Buffer* buffer : {&map.nearest_depths, &map.nearest_triangles, &map.coverage})
         recorder.fill("raster/coverage", *buffer, shared::kNone);
     const auto most = static_cast<uint32_t>(device.limits().max_storage_range / item_bytes);
@@ -42,7 +42,6 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometr
             }
         }
     }
-    recorder.submit();
     const auto covering = gpu::download_vector<uint32_t>(device, map.coverage, bytes / 4);
     map.covered = covering.size() - static_cast<uint64_t>(std::count(covering.begin(), covering.end(), shared::kNone));
     return map;

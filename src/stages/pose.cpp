@@ -119,7 +119,7 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, std::shared_ptr<
     geometry.positions = device.allocate("positions", key_bytes * poses.size());
     geometry.normals = device.allocate("normals", key_bytes * poses.size());
     std::vector<gpu::Buffer> palettes, weights;
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     const std::vector<VertexRun> runs = vertex_runs(device, geometry);
     for (size_t k = 0; k < poses.size(); ++k) {
         palettes.push_back(gpu::upload_new(device, "palette", poses[k].palette));
@@ -138,7 +138,6 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, std::shared_ptr<
                               shared::PoseParams{run.first, run.count}, groups_of(run.count, 64));
         }
     }
-    recorder.submit();
     return geometry;
 }
 
@@ -151,14 +150,13 @@ Bounds geometry_bounds(gpu::Device& device, Programs& programs, const Geometry& 
     };
     const gpu::Buffer box = gpu::upload_new(device, "bounds", std::vector<Box>(1));
     const SceneData& data = *geometry.scene;
-    gpu::Recorder recorder(device);
+    gpu::Recorder& recorder = device.recorder();
     recorder.dispatch("pose/bounds", programs.get("pose/bounds"),
                       bindings({{"triangles", &data.triangles, gpu::Texel::rgba32_uint},
                                 {"positions", &geometry.positions, gpu::Texel::rgba32_float},
                                 {"Box", &box}}),
                       shared::BoundsParams{data.triangle_count, geometry.vertex_stride, geometry.segment_count + 1},
                       groups_of(data.triangle_count, 64 * shared::kBoundsRun));
-    recorder.submit();
     const Box found = gpu::download_vector<Box>(device, box, 1)[0];
     if (found.not_finite != 0) bounds_of(scene, poses);  // Which says where.
     const auto place = [](const glm::uvec3& ordered) {

@@ -15,6 +15,8 @@ using gpu::Texel;
 // Ranges in memory start at a multiple of this, which keeps every binding aligned whatever the size of its elements.
 constexpr uint64_t kRangeAlign = 64;
 
+constexpr uint64_t kTicketBytes = 4;
+
 uint64_t align_down(uint64_t value) { return value / kRangeAlign * kRangeAlign; }
 
 }  // namespace
@@ -35,8 +37,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     portions_ = raster_->portions();
     if (portions_.empty()) portions_.push_back({0, item_count_});
     uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
-    range_counts_ = device.allocate("range_counts", blocks * sizeof(glm::uvec2));
-    ticket_ = device.allocate("ticket", 4);
+    raster_counts_ = device.allocate("raster_counts", kTicketBytes + blocks * sizeof(glm::uvec2));
     const bool scanned = std::any_of(layout_.buffers.begin(), layout_.buffers.end(), [](const auto& b) { return b.scan; });
     const uint64_t list_elements = scanned ? scan_bytes(list_count_) / 4 : list_count_;
     for (const LayoutBuffer& description : layout_.buffers) {
@@ -68,10 +69,10 @@ std::map<std::string, uint64_t> SBuffer::counts() const {
     return counts;
 }
 
-void SBuffer::record_pass(gpu::Recorder& recorder, bool fill, const Band& part) {
+void SBuffer::record_pass(bool fill, const Band& part) {
+    gpu::Recorder& recorder = device_.recorder();
     std::vector<gpu::Binding> all = raster_->bindings();
-    all.push_back({"RangeCounts", &range_counts_});
-    all.push_back({"Ticket", &ticket_});
+    all.push_back({"RasterCounts", &raster_counts_});
     uint64_t first_bound = std::max<uint64_t>(range_base_, align_down(part.range_first));
     for (size_t i = 0; i < memory_.size(); ++i) {
         const Memory& m = memory_[i];
@@ -102,7 +103,7 @@ void SBuffer::record_pass(gpu::Recorder& recorder, bool fill, const Band& part) 
     }
     uint64_t groups = groups_of(part.item_count, raster_->items_per_group());
     for (uint32_t i = 0; i < raster_->part_count(); ++i) {
-        recorder.fill(raster_->timing(fill), ticket_, 0);
+        recorder.fill(raster_->timing(fill), raster_counts_, 0, 0, kTicketBytes);
         recorder.dispatch(raster_->timing(fill), raster_->program(fill), all,
                           shared::RasterParams{raster_->grid(), part.item_count, part.item_first, i * shared::kListChunk,
                                                static_cast<uint32_t>(first_bound), raster_->fragment_base()},
@@ -116,18 +117,16 @@ size_t SBuffer::portion_of(uint32_t item) const {
     return i;
 }
 
-// What was recorded needs the portion before.
-void SBuffer::prepare(gpu::Recorder& recorder, uint32_t item) {
+void SBuffer::prepare(uint32_t item) {
     const size_t portion = portion_of(item);
     if (portion == prepared_) return;
-    recorder.submit();
     raster_->prepare(portions_[portion]);
     prepared_ = portion;
 }
 
 void SBuffer::count() {
-    gpu::Recorder recorder(device_);
-    recorder.fill(raster_->timing(false), range_counts_, 0);
+    gpu::Recorder& recorder = device_.recorder();
+    recorder.fill(raster_->timing(false), raster_counts_, 0);
     for (Memory& m : memory_) {
         if (!m.description.scan) continue;
         m.counts = device_.allocate("s_buffer.counts", m.buffer.bytes());
@@ -140,22 +139,19 @@ void SBuffer::count() {
     uint64_t most_items =
         device_.limits().max_storage_range / (widest * shared::kTileTexels) / shared::kCountBlock * shared::kCountBlock;
     for (const Band& portion : portions_) {
-        prepare(recorder, portion.item_first);
+        prepare(portion.item_first);
         for (uint64_t first = 0; first < portion.item_count; first += most_items) {
             const uint64_t items = std::min<uint64_t>(most_items, portion.item_count - first);
-            record_pass(recorder, false,
-                        {static_cast<uint32_t>(portion.item_first + first), static_cast<uint32_t>(items), 0, 0});
+            record_pass(false, {static_cast<uint32_t>(portion.item_first + first), static_cast<uint32_t>(items), 0, 0});
         }
     }
-    std::vector<Scan> scans;
     for (Memory& m : memory_) {
         if (!m.counts) continue;
-        scans.push_back(record_scan(device_, programs_, recorder, m.counts, static_cast<uint32_t>(list_count_), m.buffer));
+        record_scan(device_, programs_, m.counts, static_cast<uint32_t>(list_count_), m.buffer);
         m.counts = gpu::Buffer();
     }
-    recorder.submit();
     for (const glm::uvec2& total :
-         gpu::download_vector<glm::uvec2>(device_, range_counts_, groups_of(item_count_, shared::kCountBlock))) {
+         gpu::download_vector<glm::uvec2>(device_, raster_counts_, groups_of(item_count_, shared::kCountBlock), kTicketBytes)) {
         block_ranges_.push_back(uint64_t(total.y) << 32 | total.x);
         range_count_ += block_ranges_.back();
     }
@@ -227,7 +223,7 @@ void SBuffer::fill(const Band& band) {
         m.buffer =
             device_.allocate("s_buffer." + m.description.block, std::max<uint64_t>(1, held) * m.description.element_bytes);
     }
-    gpu::Recorder recorder(device_);
+    gpu::Recorder& recorder = device_.recorder();
     for (const Memory& m : memory_) {
         const LayoutBuffer& d = m.description;
         if (!d.copy_of.empty()) {
@@ -242,14 +238,13 @@ void SBuffer::fill(const Band& band) {
         if (d.clear == LayoutBuffer::Clear::value) recorder.fill(raster_->timing(true), m.buffer, d.clear_value);
     }
     for (const Band& part : parts(band)) {
-        prepare(recorder, part.item_first);
+        prepare(part.item_first);
         for (const Memory& m : memory_) {
             if (m.description.clear == LayoutBuffer::Clear::range_first)
                 recorder.fill(raster_->timing(true), m.buffer, static_cast<uint32_t>(part.range_first));
         }
-        record_pass(recorder, true, part);
+        record_pass(true, part);
     }
-    recorder.submit();
 }
 
 std::vector<gpu::Binding> SBuffer::read_bindings() const {
@@ -285,11 +280,10 @@ void SBuffer::add_texel_ranges(const Band& band, const gpu::Buffer& counts) {
     }
     const gpu::Program& program = programs_.get(layout_.stage("raster/texel_ranges"), {parts > 1});
     for (uint32_t part = 0; part < parts; ++part) {
-        gpu::Recorder recorder(device_);
+        gpu::Recorder& recorder = device_.recorder();
         recorder.dispatch("raster/texel_ranges", program, all,
                           shared::TexelRangesParams{grid(), band.item_first, band.item_count, range_base_, part},
                           groups_of(lists, 64));
-        recorder.submit();
     }
 }
 

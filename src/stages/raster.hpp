@@ -39,9 +39,9 @@ private:
     };
 
     void count();
-    void prepare(gpu::Recorder& recorder, uint32_t item);
+    void prepare(uint32_t item);
     size_t portion_of(uint32_t item) const;
-    void record_pass(gpu::Recorder& recorder, bool fill, const Band& part);
+    void record_pass(bool fill, const Band& part);
     void add_texel_ranges(const Band& band, const gpu::Buffer& counts);
     std::vector<Band> parts(const Band& band) const;  ///< That one binding can hold, each of one portion.
     uint64_t bytes_per_range() const;
@@ -57,9 +57,8 @@ private:
     uint64_t range_count_ = 0;
     uint32_t range_base_ = 0;
     std::vector<uint64_t> block_ranges_;  ///< Per kCountBlock items.
-    gpu::Buffer range_counts_;
-    gpu::Buffer ticket_;
-    Unbound unbound_;  ///< Stands in for the ranges while they are counted.
+    gpu::Buffer raster_counts_;           ///< A ticket, and the ranges of each block of items.
+    Unbound unbound_;                     ///< Stands in for the ranges while they are counted.
     std::vector<Memory> memory_;
 };
 

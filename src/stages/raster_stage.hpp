@@ -9,7 +9,7 @@
 
 namespace gnomon {
 
-/// Its shader takes RasterParams, and binds RangeCounts, Ticket, the blocks of the layout and `bindings()`.
+/// Its shader takes RasterParams, and binds RasterCounts, the blocks of the layout and `bindings()`.
 class RasterStage {
 public:
     RasterStage() = default;

@@ -42,6 +42,8 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     queue_ = device.allocate("queue", most_slots * 4);
     run_hits_ = device.allocate("run_hits", scan_bytes(most_slots / shared::kScanRun));
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
+    shadow_groups_ = device.allocate("shadow_groups", 12);
+    hit_total_ = gpu::upload_new(device, "hit_total", std::vector<uint32_t>(2));
     ticket_ = device.allocate("ticket", 4);
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
@@ -55,34 +57,32 @@ void Sampler::begin_window() {
         film_ = gpu::Buffer();
         film_ = device_.allocate("film", bytes);
     }
-    gpu::Recorder recorder(device_);
+    gpu::Recorder& recorder = device_.recorder();
     recorder.fill("sample/shade", film_, 0);
-    recorder.submit();
 }
 
 void Sampler::trace(const Batch& batch) {
     batch_ = batch;
-    uint32_t run_count = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
-    gpu::Recorder recorder(device_);
+    run_count_ = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
+    gpu::Recorder& recorder = device_.recorder();
     tracer_.record(recorder, batch);
     lit_written_ = false;
-    cast_lights_.assign(settings_.light_count, false);
     recorder.fill("sample/compact", run_hits_, 0);
+    const shared::CompactParams params{run_count_, device_.limits().max_groups};
     recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
-                      bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"Runs", &run_hits_}}),
-                      shared::CompactParams{run_count}, groups_of(run_count, 64));
-    Scan scan = record_scan(device_, programs_, recorder, run_hits_, run_count, runs_);
-    recorder.dispatch(
-        "sample/compact", programs_.get("sample/compact"),
-        bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"runs", &runs_, Texel::r32_uint}, {"Queue", &queue_}}),
-        shared::CompactParams{run_count}, groups_of(run_count, 64));
-    recorder.submit();
-    queue_count_ = gpu::download_vector<uint32_t>(device_, runs_, 1, uint64_t(run_count) * 4)[0];
-    hit_total_ += queue_count_;
+                      bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"Runs", &run_hits_}}), params,
+                      groups_of(run_count_, 64));
+    record_scan(device_, programs_, run_hits_, run_count_, runs_);
+    recorder.dispatch("sample/compact", programs_.get("sample/compact"),
+                      bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint},
+                                {"runs", &runs_, Texel::r32_uint},
+                                {"Queue", &queue_},
+                                {"ShadowGroups", &shadow_groups_},
+                                {"HitTotal", &hit_total_}}),
+                      params, groups_of(run_count_, 64));
 }
 
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
-    if (queue_count_ == 0) return;
     uint32_t parts = static_cast<uint32_t>(groups_of(std::max<uint64_t>(1, light.map->longest()), shared::kListChunk));
     if (parts > 1 || !iterators_) {
         uint64_t bytes = parts > 1 ? tracer_.hits().bytes() * 2 : 8;
@@ -90,6 +90,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     }
     const uint64_t slots = settings_.most_slots;
     std::vector<gpu::Binding> all = {{"queue", &queue_, Texel::r32_uint},
+                                     {"runs", &runs_, Texel::r32_uint},
                                      {"hits", &tracer_.hits(), Texel::r32_uint},
                                      {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
@@ -106,7 +107,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
         window.tile_count == tiles_across(light.view) * tiles_down(light.view) && band.item_count == light.map->item_count();
     const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole;
     const ItemOrder order = light.map->order();
-    gpu::Recorder recorder(device_);
+    gpu::Recorder& recorder = device_.recorder();
     if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
     lit_written_ = true;
     recorder.fill("sample/shadow", shadow_counts_, 0);
@@ -116,7 +117,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     constants.insert(constants.end(), own.begin(), own.end());
     for (uint32_t part = 0; part < parts; ++part) {
         shared::ShadowParams params{bins_.grid,
-                                    queue_count_,
+                                    run_count_,
                                     batch_.tile_first,
                                     batch_.stratum_first,
                                     batch_.stratum_count,
@@ -141,17 +142,12 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     light.map->range_base(),
                                     part};
         recorder.fill("sample/shadow", ticket_, 0);
-        recorder.dispatch("sample/shadow", programs_.get(settings_.shadow_stage, constants), all, params,
-                          groups_of(queue_count_, 64));
+        recorder.dispatch_indirect("sample/shadow", programs_.get(settings_.shadow_stage, constants), all, params,
+                                   shadow_groups_, 0, groups_of(batch_.slot_count(), 64));
     }
-    recorder.submit();
-    if (!settings_.count_ranges) {
-        counts_.cast += cast_lights_[light.light_ix] ? 0 : queue_count_;
-        cast_lights_[light.light_ix] = true;
-        return;
-    }
-    uint64_t blocks = groups_of(queue_count_, kCountersHits);
-    std::vector<uint32_t> values = gpu::download_vector<uint32_t>(device_, shadow_counts_, blocks * 3);
+    if (!settings_.count_ranges) return;
+    const uint64_t blocks = groups_of(batch_.slot_count(), kCountersHits);
+    const std::vector<uint32_t> values = gpu::download_vector<uint32_t>(device_, shadow_counts_, blocks * 3);
     for (uint64_t i = 0; i < blocks; ++i) {
         counts_.visited += values[i * 3];
         counts_.tested += values[i * 3 + 1];
@@ -160,7 +156,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
 }
 
 void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
-    gpu::Recorder recorder(device_);
+    gpu::Recorder& recorder = device_.recorder();
     if (!lit_written_) recorder.fill("sample/shade", lit_, all_lit());
     recorder.dispatch(
         "sample/shade",
@@ -184,16 +180,20 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
                             static_cast<uint32_t>(view_.keys.size()), film_px_.x, film_px_.x * film_px_.y,
                             static_cast<uint32_t>(settings_.most_slots)},
         batch_.tile_count);
-    recorder.submit();
+    recorder.submit();  // So that progress is what was done.
 }
 
 std::vector<float> Sampler::resolve() {
     const uint32_t pixels = film_px_.x * film_px_.y;
-    gpu::Recorder recorder(device_);
+    gpu::Recorder& recorder = device_.recorder();
     recorder.dispatch("sample/resolve", programs_.get("sample/resolve", {settings_.fractional}), bindings({{"Film", &film_}}),
                       shared::ResolveParams{pixels, settings_.spp, settings_.light_count}, groups_of(pixels, 64));
-    recorder.submit();
     return gpu::download_vector<float>(device_, film_, uint64_t(pixels) * shared::film_planes(settings_.light_count));
+}
+
+uint64_t Sampler::hit_count() const {
+    const std::vector<uint32_t> words = gpu::download_vector<uint32_t>(device_, hit_total_, 2);
+    return uint64_t(words[1]) << 32 | words[0];
 }
 
 uint32_t Sampler::all_lit() const { return settings_.fractional ? std::bit_cast<uint32_t>(1.0f) : ~0u; }

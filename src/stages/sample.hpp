@@ -50,7 +50,8 @@ public:
 
     /// Finish the window's film. Its channels, plane-major, rows from the top: as Frame::channels.
     std::vector<float> resolve();
-    uint64_t hit_count() const { return hit_total_; }
+    uint64_t hit_count() const;
+    /// cast only where they are counted.
     const ShadowCounts& shadow_counts() const { return counts_; }
 
     std::vector<uint32_t> batch_hits() const;                   ///< Per slot.
@@ -68,14 +69,13 @@ private:
     const Bins& bins_;
     SamplerSettings settings_;
     Tracer tracer_;
-    bool lit_written_ = false;       ///< Of this batch.
-    std::vector<bool> cast_lights_;  ///< Those for which this batch's shadow tests are counted.
-    glm::uvec2 film_px_{0};          ///< Size of the window.
+    bool lit_written_ = false;  ///< Of this batch.
+    glm::uvec2 film_px_{0};     ///< Size of the window.
     Batch batch_;
-    uint32_t queue_count_ = 0;
-    uint64_t hit_total_ = 0;
+    uint32_t run_count_ = 0;
     ShadowCounts counts_;
-    gpu::Buffer lit_, queue_, run_hits_, runs_, ticket_, film_, depth_values_, shadow_counts_, iterators_, srgb_to_linear_;
+    gpu::Buffer lit_, queue_, run_hits_, runs_, shadow_groups_, hit_total_, ticket_, film_, depth_values_, shadow_counts_,
+        iterators_, srgb_to_linear_;
 };
 
 }  // namespace gnomon

@@ -47,17 +47,13 @@ void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& record
 
 uint64_t scan_bytes(uint64_t count) { return (count + 1 + 3) / 4 * 16; }
 
-Scan record_scan(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values, uint32_t count,
-                 const gpu::Buffer& sums) {
+Scan record_scan(gpu::Device& device, Programs& programs, const gpu::Buffer& values, uint32_t count, const gpu::Buffer& sums) {
+    gpu::Recorder& recorder = device.recorder();
     Scan scan;
     scan.longest = device.allocate("scan_longest", 4);
     recorder.fill("scan", scan.longest, 0);
     record_level(device, programs, recorder, values, count, sums, true, scan);
     return scan;
-}
-
-uint32_t longest_of(gpu::Device& device, const Scan& scan) {
-    return gpu::download_vector<uint32_t>(device, scan.longest, 1)[0];
 }
 
 }  // namespace gnomon

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the hash of a frame, for tests that need a process of their own: frame_hash SCENE WIDTH HEIGHT SPP SHADOW_RES LAYOUT.
+// Prints the hash of a frame, for tests that need a process of their own: frame_hash SCENE WIDTH HEIGHT SPP SHADOW_RES
+// LAYOUT [METHOD].
 #include <cstdlib>
 #include <iostream>
 
@@ -7,7 +8,7 @@
 
 int main(int argc, char** argv) {
     using namespace gnomon;
-    if (argc != 7) return 2;
+    if (argc != 7 && argc != 8) return 2;
     try {
         const test::PosedScene posed = test::load_posed(argv[1]);
         const auto number = [&](int i) { return static_cast<uint32_t>(std::strtoul(argv[i], nullptr, 10)); };
@@ -17,6 +18,8 @@ int main(int argc, char** argv) {
         settings.spp = number(4);
         settings.shadow_res = number(5);
         settings.layout = argv[6];
+        if (argc == 8) settings.method = argv[7];
+        if (settings.method == "accumulate") settings.parameters["slices"] = settings.spp;
         std::cout << test::hash_of(test::shared_renderer().render(posed.scene, posed.poses, settings));
     } catch (const std::exception& error) {
         std::cerr << error.what() << std::endl;

@@ -43,11 +43,27 @@ std::string device(const std::string& environment) {
     return text.substr(0, text.find('\n'));
 }
 
+// Vulkan's own minima of what gnomon can do with less of, and what they seldom are together.
+constexpr const char* kLowerLimits[] = {
+    "texels=65536",  // Then stages read through storage buffers,
+    "texels=65536,storage_range=16777216,push_constants=128,groups=65535",
+    "storage_range=1048576",  // of which a few tiles fill one.
+    "storage_buffers=4",
+    "crew=4",
+    "crew=1",
+    "timestamps=0,mapped=0",
+    "dispatch_ms=1",
+};
+
+/// Of a scene at "WIDTH HEIGHT SPP SHADOW_RES LAYOUT [METHOD]".
+std::string frame_hash(const std::string& environment, const std::string& scene, const std::string& settings) {
+    return output_of(environment + "'" GNOMON_FRAME_HASH "' '" GNOMON_SOURCE_DIR "/scenes/" + scene + ".gltf' " + settings);
+}
+
 class SameBits : public testing::TestWithParam<const char*> {
 protected:
     static std::string hash(const std::string& environment) {
-        return output_of(environment + "'" GNOMON_FRAME_HASH "' '" GNOMON_SOURCE_DIR "/scenes/" + GetParam() +
-                         ".gltf' 120 90 8 256 array");
+        return frame_hash(environment, GetParam(), "120 90 8 256 array");
     }
 
     /// The hash is that of `expected` at 4, 8 and 16 lanes. Another device than lavapipe does not hear of them, and gives it
@@ -70,6 +86,16 @@ TEST_P(SameBits, AtEverySubgroupSize) {
     std::cout << device(environment(0, "")) << ": " << expected << std::endl;
 }
 
+// What a device binds at once, how it reads, what it maps and times, how long its dispatches may take: GNOMON_LIMITS lowers
+// them.
+TEST_P(SameBits, WithinLowerLimits) {
+    const std::string expected = hash(environment(0, ""));
+    EXPECT_THAT(expected, testing::MatchesRegex("[0-9]+"));
+    for (const char* limits : kLowerLimits) {
+        EXPECT_EQ(hash(environment(0, "") + "GNOMON_LIMITS=" + limits + " "), expected) << limits;
+    }
+}
+
 TEST_P(SameBits, OnTheSecondDriver) {
     const std::string icd = variable("GNOMON_SECOND_DRIVER");
     if (icd.empty()) GTEST_SKIP() << "skipped: no second driver; GNOMON_SECOND_DRIVER is not set";
@@ -81,6 +107,27 @@ TEST_P(SameBits, OnTheSecondDriver) {
     expect_at_every_width(expected, icd);
     std::cout << device(environment(0, icd)) << ": " << expected << std::endl;
 }
+
+class SameBitsOfMethod : public testing::TestWithParam<const char*> {};
+
+TEST_P(SameBitsOfMethod, WithinLowerLimits) {
+    const std::string settings = std::string("72 50 5 200 ") + GetParam();
+    const std::string expected = frame_hash(environment(0, ""), "two-cubes", settings);
+    EXPECT_THAT(expected, testing::MatchesRegex("[0-9]+"));
+    for (const char* limits : {"texels=65536,storage_range=2097152", "storage_range=1048576", "dispatch_ms=1,mapped=0"}) {
+        const std::string where = environment(0, "") + "GNOMON_LIMITS=" + limits + " ";
+        EXPECT_EQ(frame_hash(where, "two-cubes", settings), expected) << limits;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, SameBitsOfMethod,
+                         testing::Values("linked exact", "array dtr", "linked dtr", "array dtr-analytic", "linked temporal",
+                                         "array tsm", "array tsm-dynamic-bias", "array dsm", "array fssm", "array accumulate"),
+                         [](const auto& tested) {
+                             std::string name = tested.param;
+                             for (char& c : name) c = c == '-' || c == ' ' ? '_' : c;
+                             return name;
+                         });
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SameBits, testing::Values("figure", "two-cubes", "random-cubes", "pillars"),
                          [](const auto& tested) {

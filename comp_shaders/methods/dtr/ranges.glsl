@@ -27,7 +27,7 @@ bool occluded_by_ranges(uint i, ShadowTest test, bool walk, inout uint visited, 
         more = layout_more(it) && !occluded && (!kResume || steps < kListChunk);
     }
     // What is occluded has no more to walk.
-    if (kResume && i < params.hit_count) {
+    if (kResume && i < hit_count()) {
         if (occluded) {
             it = layout_end();
         }
