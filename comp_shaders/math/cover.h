@@ -14,7 +14,7 @@ GN_BEGIN
 
 // A vertex that moves from a to a + d in one segment, at local time s.
 GN_FN vec4 vertex_at(vec4 a, vec4 d, float s) {
-    GN_PRECISE vec4 p;
+    vec4 p;
     p.x = a.x + s * d.x;
     p.y = a.y + s * d.y;
     p.z = a.z + s * d.z;
@@ -24,7 +24,7 @@ GN_FN vec4 vertex_at(vec4 a, vec4 d, float s) {
 
 // The vertex as seen from the image point (x, y): where it projects onto the point, the result is zero.
 GN_FN vec2 relative_to(vec4 p, float x, float y) {
-    GN_PRECISE vec2 r;
+    vec2 r;
     r.x = p.x - x * p.w;
     r.y = p.y - y * p.w;
     return r;
@@ -33,7 +33,7 @@ GN_FN vec2 relative_to(vec4 p, float x, float y) {
 // Edge function of the edge p -> q at the origin. Swapping p and q negates the result exactly, so that two triangles which
 // share an edge leave no crack along it.
 GN_FN float edge_at_origin(vec2 p, vec2 q) {
-    GN_PRECISE float e = p.x * q.y - q.x * p.y;
+    float e = p.x * q.y - q.x * p.y;
     return e;
 }
 
@@ -51,14 +51,14 @@ GN_FN bool covers(vec3 e) { return min(min(e.x, e.y), e.z) >= 0.0f; }
 
 // Depth z / w of the triangle's plane at the point that e belongs to.
 GN_FN float depth_orthographic(vec3 e, vec4 p0, vec4 p1, vec4 p2) {
-    GN_PRECISE float zn = e.x * p0.z + e.y * p1.z + e.z * p2.z;
-    GN_PRECISE float wn = e.x * p0.w + e.y * p1.w + e.z * p2.w;
+    float zn = e.x * p0.z + e.y * p1.z + e.z * p2.z;
+    float wn = e.x * p0.w + e.y * p1.w + e.z * p2.w;
     return zn / wn;
 }
 
 GN_FN float depth_perspective(vec3 e, vec4 p0, vec4 p1, vec4 p2) {
-    GN_PRECISE float wn = e.x * p0.w + e.y * p1.w + e.z * p2.w;
-    GN_PRECISE float sum = e.x + e.y + e.z;
+    float wn = e.x * p0.w + e.y * p1.w + e.z * p2.w;
+    float sum = e.x + e.y + e.z;
     return -sum / wn;
 }
 

@@ -18,7 +18,7 @@ const uint kIntervals = 64u;
 
 // The depth at t = 1/2 of what is at `depth` at t (with the layer's motion z_reproj of section 4.1).
 GN_FN float depth_at_middle(float depth, float motion, float t) {
-    GN_PRECISE float z = depth + (0.5f - t) * motion;
+    float z = depth + (0.5f - t) * motion;
     return z;
 }
 

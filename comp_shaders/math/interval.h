@@ -26,15 +26,15 @@ struct EdgeQuadratic {
 GN_FN EdgeQuadratic edge_quadratic(vec2 pa, vec2 qa, vec2 pb, vec2 qb) {
     EdgeQuadratic e;
     e.start = edge_at_origin(pa, qa);
-    GN_PRECISE float mixed = edge_at_origin(pa, qb) + edge_at_origin(pb, qa);
+    float mixed = edge_at_origin(pa, qb) + edge_at_origin(pb, qa);
     e.mixed = mixed;
     e.end = edge_at_origin(pb, qb);
     return e;
 }
 
 GN_FN float edge_at(EdgeQuadratic e, float u) {
-    GN_PRECISE float v = 1.0f - u;
-    GN_PRECISE float value = v * v * e.start + u * v * e.mixed + u * u * e.end;
+    float v = 1.0f - u;
+    float value = v * v * e.start + u * v * e.mixed + u * u * e.end;
     return value;
 }
 
@@ -54,7 +54,7 @@ GN_FN EdgeTimes times_not_negative(EdgeQuadratic e) {
     float start = e.start * scale;
     float mixed = e.mixed * scale;
     float end = e.end * scale;
-    GN_PRECISE float discriminant = mixed * mixed - 4.0f * start * end;
+    float discriminant = mixed * mixed - 4.0f * start * end;
     float root = sqrt(max(discriminant, 0.0f));
     bool minus = mixed < 0.0f || (mixed == 0.0f && start < 0.0f);
     float q = -0.5f * (mixed + (minus ? -root : root));
@@ -136,7 +136,7 @@ GN_FN float metres_at(PointPrism p, CellTriangle c, float u, bool orthographic) 
     float m1 = orthographic ? p1.z : p1.w;
     float m2 = orthographic ? p2.z : p2.w;
     float sum = k0 + k1 + k2;
-    GN_PRECISE float blend = k0 * m0 + k1 * m1 + k2 * m2;
+    float blend = k0 * m0 + k1 * m1 + k2 * m2;
     // Where the triangle is seen edge-on at this instant any point of it will do.
     return sum > 0.0f ? blend / sum : (m0 + m1 + m2) * (1.0f / 3.0f);
 }

@@ -7,7 +7,7 @@ GN_BEGIN
 
 // rest + weight * delta, one morph target.
 GN_FN vec3 morph_add(vec3 rest, vec3 delta, float weight) {
-    GN_PRECISE vec3 r;
+    vec3 r;
     r.x = rest.x + weight * delta.x;
     r.y = rest.y + weight * delta.y;
     r.z = rest.z + weight * delta.z;
@@ -16,13 +16,13 @@ GN_FN vec3 morph_add(vec3 rest, vec3 delta, float weight) {
 
 // One row of a palette matrix times (p, 1).
 GN_FN float row_times_point(vec4 row, vec3 p) {
-    GN_PRECISE float r = row.x * p.x + row.y * p.y + row.z * p.z + row.w;
+    float r = row.x * p.x + row.y * p.y + row.z * p.z + row.w;
     return r;
 }
 
 // sum + weight * (matrix * (p, 1)); the matrix's three rows.
 GN_FN vec3 skin_add(vec3 sum, vec4 row_x, vec4 row_y, vec4 row_z, vec3 p, float weight) {
-    GN_PRECISE vec3 r;
+    vec3 r;
     r.x = sum.x + weight * row_times_point(row_x, p);
     r.y = sum.y + weight * row_times_point(row_y, p);
     r.z = sum.z + weight * row_times_point(row_z, p);

@@ -21,9 +21,9 @@ const uint kPrismTriangles = 14u;  // At most: 2 + 3 * 4.
 // The line through two points of the image, homogeneous (x, y, w): its function at (x, y) is line.x * x + line.y * y + line.z.
 // Swapping the points negates it exactly.
 GN_FN vec3 line_through(vec3 p, vec3 q) {
-    GN_PRECISE float a = p.y * q.z - q.y * p.z;
-    GN_PRECISE float b = q.x * p.z - p.x * q.z;
-    GN_PRECISE float c = p.x * q.y - q.x * p.y;
+    float a = p.y * q.z - q.y * p.z;
+    float b = q.x * p.z - p.x * q.z;
+    float c = p.x * q.y - q.x * p.y;
     return vec3(a, b, c);
 }
 
@@ -34,7 +34,7 @@ struct LineAt {
 
 GN_FN LineAt line_at(vec3 line, float x, float y) {
     LineAt at;
-    GN_PRECISE float value = line.x * x + line.y * y + line.z;
+    float value = line.x * x + line.y * y + line.z;
     at.value = value;
     at.left = value > 0.0f || (value == 0.0f && (line.x > 0.0f || (line.x == 0.0f && line.y > 0.0f)));
     return at;
@@ -62,7 +62,7 @@ struct PrismSurface {
 };
 
 GN_FN float cross2(vec2 a, vec2 b) {
-    GN_PRECISE float c = a.x * b.y - a.y * b.x;
+    float c = a.x * b.y - a.y * b.x;
     return c;
 }
 

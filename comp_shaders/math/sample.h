@@ -52,7 +52,7 @@ GN_FN vec3 slice_point(uint x_px, uint y_px, uint s, float length) {
 
 // Time t of the shutter as local time of one of its segments: 0 where the segment starts.
 GN_FN float local_time_of(float t, uint segment, uint segment_count) {
-    GN_PRECISE float local = t * float(segment_count) - float(segment);
+    float local = t * float(segment_count) - float(segment);
     return local;
 }
 

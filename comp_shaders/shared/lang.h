@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lets one header be C++ and GLSL. Headers that include this use only + - * / sqrt, comparisons and integer operations, so
-// that the host (built with -ffp-contract=off) and the device compute the same bits; `precise` forbids the device to contract.
+// that the host (built with -ffp-contract=off) and the device (whose SPIR-V forbids contraction) compute the same bits.
 #ifndef GNOMON_SHARED_LANG_H
 #define GNOMON_SHARED_LANG_H
 
@@ -12,7 +12,6 @@
 #define GN_FN inline
 #define GN_OUT(T) T&
 #define GN_INOUT(T) T&
-#define GN_PRECISE
 #define GN_BEGIN namespace gnomon::shared {
 #define GN_END }
 GN_BEGIN
@@ -38,7 +37,6 @@ GN_END
 #define GN_FN
 #define GN_OUT(T) out T
 #define GN_INOUT(T) inout T
-#define GN_PRECISE precise
 #define GN_BEGIN
 #define GN_END
 #endif

@@ -33,8 +33,8 @@ Json render_json(const Frame& frame, const Json& settings, const std::vector<std
     Json stages = Json::array();
     for (const FrameStats::Stage& stage : stats.stages)
         stages.push_back({{"name", stage.name},
-                          {"seconds", stage.seconds},
-                          {"map_seconds", stage.map_seconds},
+                          {"seconds", stats.timed ? Json(stage.seconds) : Json()},
+                          {"map_seconds", stats.timed ? Json(stage.map_seconds) : Json()},
                           {"dispatches", stage.dispatches}});
 
     Json json = document("render");
@@ -45,6 +45,8 @@ Json render_json(const Frame& frame, const Json& settings, const std::vector<std
     json["buffers"] = stats.buffer_bytes;
     json["peak_bytes"] = stats.peak_bytes;
     json["counts"] = stats.counts;
+    json["submissions"] = stats.submissions;
+    json["longest_dispatch"] = stats.longest_dispatch;
     json["wall_seconds"] = stats.wall_seconds;
     json["outputs"] = outputs;
     json["warnings"] = warnings;

@@ -24,10 +24,12 @@ Json settings_json(const RenderSettings& settings);
 ///   settings      object, as given
 ///   effective     {name: string}, what was really used where the settings leave a choice
 ///   stages        [{name, seconds, map_seconds, dispatches}], seconds on the device, and those of them that went into what the
-///                 lights' shadow tests read; in the order in which the stages ran first
+///                 lights' shadow tests read; in the order in which the stages ran first; null where the device does not tell
 ///   buffers       {name: bytes}, the largest size of each
 ///   peak_bytes    most device memory at one time
 ///   counts        {name: number}: triangles, prisms, ranges, samples, hits, shadow_tests, ...
+///   submissions   of work to the device, and the seconds of the
+///   longest_dispatch  that ran as one
 ///   wall_seconds  on the host, for the frame without reading the scene and writing files
 ///   outputs       [path], the image files of the frame
 ///   warnings      [string], one line each

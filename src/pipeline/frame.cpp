@@ -92,6 +92,9 @@ FrameStats statistics(gpu::Device& device) {
         stats.stages.push_back({t.name, t.seconds, t.dispatches, t.marked_seconds});
     stats.buffer_bytes = device.largest_bytes();
     stats.peak_bytes = device.peak_bytes();
+    stats.timed = device.has_timestamps();
+    stats.submissions = device.submissions();
+    stats.longest_dispatch = device.longest_dispatch_seconds();
     stats.device = device.description().name;
     return stats;
 }

@@ -20,6 +20,8 @@ TEST(Report, RenderDocument) {
     stats.peak_bytes = 1ull << 40;
     stats.counts = {{"ranges", 123}};
     stats.wall_seconds = 1.5;
+    stats.submissions = 7;
+    stats.longest_dispatch = 0.25;
     stats.device = "llvmpipe";
     const Json json = io::render_json(frame, {{"spp", 16}}, {"a.exr", "a.png"}, {"no camera"});
     EXPECT_EQ(json, Json::parse(R"({
@@ -27,7 +29,8 @@ TEST(Report, RenderDocument) {
         "settings": {"spp": 16}, "effective": {"raster": "conservative"},
         "stages": [{"name": "setup", "seconds": 0.5, "map_seconds": 0.125, "dispatches": 2},
                    {"name": "bin", "seconds": 0.25, "map_seconds": 0.0, "dispatches": 1}],
-        "buffers": {"prisms": 4096}, "peak_bytes": 1099511627776, "counts": {"ranges": 123}, "wall_seconds": 1.5,
+        "buffers": {"prisms": 4096}, "peak_bytes": 1099511627776, "counts": {"ranges": 123}, "submissions": 7,
+        "longest_dispatch": 0.25, "wall_seconds": 1.5,
         "outputs": ["a.exr", "a.png"], "warnings": ["no camera"]})"));
 }
 
