@@ -217,6 +217,7 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
             sampler.trace(batches[b]);
             shadows.test_shadows(sampler, batches[b], least_tolerance(bounds));
             sampler.shade(lights, !lights_still(poses));
+            if (b + 1 < batches.size()) device.recorder().submit();  // So that progress is what was done.
             if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);
         }
         store(frame, sampler.resolve(), rect_of(view, windows[w]));

@@ -11,8 +11,10 @@ namespace {
 constexpr uint32_t kFewestCells = 8;
 constexpr uint32_t kMostCells = 16;
 constexpr uint32_t kLightCells = 4;
-// Enough samples to keep any device busy; the buffers of a batch stay small.
+// Enough samples to keep any device busy. On a CPU the buffers of a batch stay small; elsewhere each batch is a submission that
+// is waited for.
 constexpr uint64_t kBatchSlots = 4u << 20;
+constexpr uint64_t kGpuBatchSlots = 16u << 20;
 constexpr uint64_t kSlotBytes = 16;
 
 // A window of a tile, a batch of a few samples, and what is binned with them.
@@ -119,7 +121,7 @@ uint32_t light_cells(uint32_t segments, bool still) {
 uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities) {
     const gpu::Limits& limits = device.limits();
     const uint64_t all = uint64_t(tiles_across(view)) * tiles_down(view) * spp * shared::kTileTexels;
-    const uint64_t most = std::min({kBatchSlots, all, device.budget_left() / 4 / (kSlotBytes + 4 * uint64_t(visibilities)),
+    const uint64_t most = std::min({limits.is_cpu ? kBatchSlots : kGpuBatchSlots, all, device.budget_left() / 4 / (kSlotBytes + 4 * uint64_t(visibilities)),
                                     limits.max_storage_range / 8, limits.most_elements(4) / std::max(1u, visibilities)});
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }

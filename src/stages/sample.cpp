@@ -180,7 +180,6 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
                             static_cast<uint32_t>(view_.keys.size()), film_px_.x, film_px_.x * film_px_.y,
                             static_cast<uint32_t>(settings_.most_slots)},
         batch_.tile_count);
-    recorder.submit();  // So that progress is what was done.
 }
 
 std::vector<float> Sampler::resolve() {
