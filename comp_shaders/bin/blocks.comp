@@ -18,7 +18,7 @@ void main() {
     uint triangle = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     bool inside = triangle < params.triangle_count;
     Rect rect = unpack_rect(fetch_rects(params.rect_first + min(triangle, params.triangle_count - 1u)));
-    bool large = inside && rect.seen != 0u && rect_is_large(rect.first, rect.last, rect.in_front);
+    bool large = inside && rect.seen != 0u && rect.large;
     uint count = large ? rect_blocks(rect.first, rect.last) : 0u;
     uint place = 0u;
     if (count > 0u) place = atomicAdd(block_count, count);

@@ -21,7 +21,7 @@ void main() {
     bool inside = i < params.triangle_count;
     uint triangle = params.triangle_first + i;
     Rect rect = unpack_rect(fetch_rects(params.rect_first + min(i, params.triangle_count - 1u)));
-    bool listed = inside && rect.seen != 0u && !rect_is_large(rect.first, rect.last, rect.in_front);
+    bool listed = inside && rect.seen != 0u && !rect.large;
     uint copies = rect.seen == 3u && !kByBounds ? 2u : 1u;
     uint first_entry = triangle | (rect.seen == 2u && !kByBounds ? kReversed : 0u);
     uvec2 tile = rect.first;

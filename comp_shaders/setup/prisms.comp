@@ -42,8 +42,10 @@ void main() {
     bool visible = seen != 0u && highest_w > 0.0 && first.x <= window_last.x && first.y <= window_last.y && last.x >= window_first.x && last.y >= window_first.y;
     uvec2 f = uvec2(clamp(first, window_first, window_last));
     uvec2 l = uvec2(clamp(last, window_first, window_last));
+    vec2 view_last = vec2((uvec2(grid.width, grid.height) + kTileSize - 1u) / kTileSize - 1u);
+    bool large = rect_is_large(uvec2(clamp(first, vec2(0.0), view_last)), uvec2(clamp(last, vec2(0.0), view_last)), in_front);
 
-    rects[i] = pack_rect(f, l, visible ? seen : 0u, in_front);
-    uint blocks = visible && rect_is_large(f, l, in_front) ? rect_blocks(f, l) : 0u;
+    rects[i] = pack_rect(f, l, visible ? seen : 0u, large);
+    uint blocks = visible && large ? rect_blocks(f, l) : 0u;
     if (blocks > 0u) atomicAdd(block_counts[params.part_first + (i >> params.part_log2)], blocks);
 }

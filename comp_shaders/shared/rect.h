@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The tiles of the window that a prism may touch in one cell of time, in two words: x: first x (12 bits), last x (12),
-// orientations (2), in front of the eye (1); y: first y, last y.
+// orientations (2), large (1); y: first y, last y.
 #ifndef GNOMON_SHARED_RECT_H
 #define GNOMON_SHARED_RECT_H
 #include "params.h"
@@ -10,11 +10,11 @@ struct Rect {
     uvec2 first;
     uvec2 last;
     uint seen;      // kSeenPositive, kSeenNegative; 0: not visible.
-    bool in_front;  // All of it has w > 0, so the bounds are tight.
+    bool large;     // rect_is_large, of the whole view.
 };
 
-GN_FN uvec2 pack_rect(uvec2 first, uvec2 last, uint seen, bool in_front) {
-    return uvec2(first.x | (last.x << 12u) | (seen << 24u) | (in_front ? 1u << 26u : 0u), first.y | (last.y << 12u));
+GN_FN uvec2 pack_rect(uvec2 first, uvec2 last, uint seen, bool large) {
+    return uvec2(first.x | (last.x << 12u) | (seen << 24u) | (large ? 1u << 26u : 0u), first.y | (last.y << 12u));
 }
 
 GN_FN Rect unpack_rect(uvec2 r) {
@@ -22,13 +22,14 @@ GN_FN Rect unpack_rect(uvec2 r) {
     rect.first = uvec2(r.x & 4095u, r.y & 4095u);
     rect.last = uvec2((r.x >> 12u) & 4095u, (r.y >> 12u) & 4095u);
     rect.seen = (r.x >> 24u) & 3u;
-    rect.in_front = ((r.x >> 26u) & 1u) != 0u;
+    rect.large = ((r.x >> 26u) & 1u) != 0u;
     return rect;
 }
 
 GN_FN uint rect_tiles(uvec2 first, uvec2 last) { return (last.x - first.x + 1u) * (last.y - first.y + 1u); }
 
-// Large prisms are tested against each tile (bin/large), small ones are not (bin/small).
+// Large prisms are tested against each tile (bin/large), small ones are not (bin/small). first, last: in the whole view, so that
+// a tile's lists do not depend on the window. in_front: all of it has w > 0, so the bounds are tight.
 GN_FN bool rect_is_large(uvec2 first, uvec2 last, bool in_front) { return !in_front || rect_tiles(first, last) > kSmallTiles; }
 
 // Tiles that each invocation of bin/large looks at, one after the other.

@@ -242,12 +242,7 @@ void Device::Impl::add_stage_time(const std::string& stage, double seconds, uint
 }
 
 Device::Device(const std::string& choice, bool validate) : impl_(std::make_shared<Impl>(choice, validate)) {}
-Device::~Device() = default;
-
-Recorder& Device::recorder() {
-    if (!recorder_) recorder_ = std::make_unique<Recorder>(*this);
-    return *recorder_;
-}
+Device::~Device() { impl_->shared_recorder = nullptr; }
 
 const DeviceDescription& Device::description() const { return impl_->candidate.description; }
 const Limits& Device::limits() const { return impl_->limits; }

@@ -135,8 +135,8 @@ public:
     bool has_timestamps() const;
     const std::vector<std::string>& validation_messages() const;
 
-    /// The recorder that all stages share: commands wait in it until somebody needs a result. upload, download and what is made
-    /// of them go through it.
+    /// The recorder that all stages share: commands wait in it until somebody needs a result, at the latest until another
+    /// recorder submits. upload, download and what is made of them go through it.
     Recorder& recorder();
 
     /// Uninitialised memory, usable for storage, texel, uniform and transfer. bytes 0 gives the smallest buffer. Where the
@@ -178,6 +178,7 @@ class Download {
 public:
     /// Errors: ErrorKind::internal before the recorder's submit(), and if that failed.
     std::span<const std::byte> bytes() const;
+    bool ready() const;  ///< The bytes are there.
     /// The bytes as values of type T; a part of one at the end is left out.
     template <class T>
     std::vector<T> values() const {
@@ -259,8 +260,16 @@ public:
     struct Impl;
 
 private:
+    friend class Device;
     std::unique_ptr<Impl> impl_;
 };
+
+/// What a download of the device's recorder reads; the recorder runs first where it has to.
+template <class T>
+std::vector<T> values_of(Device& device, const Download& download) {
+    if (!download.ready()) device.recorder().submit();
+    return download.values<T>();
+}
 
 /// Write to a buffer, in its order among the commands of the device's recorder; read from it after all of them.
 void upload(Device& device, const Buffer& buffer, std::span<const std::byte> data, uint64_t offset = 0);

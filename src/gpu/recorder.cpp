@@ -69,6 +69,14 @@ void add_grid(Recorder::Impl& impl, std::string_view stage, const Job& job, cons
 Recorder::Recorder(Device& device) : impl_(std::make_unique<Impl>(device.impl())) {}
 Recorder::~Recorder() = default;
 
+Recorder& Device::recorder() {
+    if (!recorder_) {
+        recorder_ = std::make_unique<Recorder>(*this);
+        impl_->shared_recorder = recorder_->impl_.get();
+    }
+    return *recorder_;
+}
+
 void Recorder::dispatch_bytes(std::string_view stage, const Program& program, std::span<const Binding> bindings,
                               std::span<const std::byte> params, uint64_t groups) {
     const Device::Impl& device = *impl_->device;
@@ -168,6 +176,8 @@ void Recorder::submit() {
     impl_->in_use.clear();
     impl_->device->throw_new_messages();
 }
+
+bool Download::ready() const { return state_ && state_->ready; }
 
 std::span<const std::byte> Download::bytes() const {
     const std::string hint = "fix the code that reads it";

@@ -180,6 +180,7 @@ void Recorder::Impl::finish_fetches() {
 }
 
 void Recorder::Impl::flush() {
+    if (device->shared_recorder && device->shared_recorder != this) device->shared_recorder->flush();
     try {
         if (recording) {
             state->timestamps.record(state->commands.buffer);

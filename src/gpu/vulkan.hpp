@@ -144,6 +144,7 @@ struct Device::Impl {
     std::map<std::pair<uint32_t, bool>, MemoryPool> pools;  ///< By memory type and whether they are mapped.
     std::vector<std::unique_ptr<RecorderState>> idle_states;
 
+    Recorder::Impl* shared_recorder = nullptr;  ///< Device::recorder()'s, which runs before what others submit.
     size_t messages_thrown = 0;
     uint64_t budget = 0;
     uint64_t live_bytes = 0;

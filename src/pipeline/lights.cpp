@@ -48,7 +48,32 @@ uint64_t Lights::most_tiles(const LightContext& context) const {
 }
 
 void Lights::prepare() {
+    make_together();
     for (size_t i = 0; i < lights_.size(); ++i) make(i, 0);
+}
+
+// Step by step for all lights, so that the host waits for all of them at once. Where they do not fit, nothing is made.
+void Lights::make_together() {
+    gpu::Recorder& recorder = shared_.device.recorder();
+    const bool marked = recorder.mark(true);
+    try {
+        std::vector<Binning> binnings;
+        for (size_t i = 0; i < lights_.size(); ++i) {
+            LightSide& side = lights_[i].side;
+            project(i);
+            binnings.emplace_back(shared_.device, shared_.programs, shared_.geometry, side.view, lights_[i].windows[0],
+                                  listing(), side.bins);
+        }
+        for (Binning& binning : binnings) binning.count();
+        for (Binning& binning : binnings) binning.fill();
+        for (size_t i = 0; i < lights_.size(); ++i) map_lists(i);
+        for (size_t i = 0; i < lights_.size(); ++i) finish_map(i);
+    } catch (const Error& error) {
+        recorder.mark(marked);
+        if (error.kind() != ErrorKind::out_of_memory) throw;
+        release();
+    }
+    recorder.mark(marked);
 }
 
 bool Lights::release() {
@@ -97,34 +122,45 @@ uint64_t Lights::share() const {
     return shared_.device.budget_left() / static_cast<uint64_t>(std::max<std::ptrdiff_t>(1, unfilled));
 }
 
-void Lights::make_map(size_t light, const Window& window) {
+void Lights::project(size_t light) {
     LightSide& side = lights_[light].side;
-    LightContext& context = contexts_[light];
     side.map.reset();
     side.filled = kNotFilled;
-    const uint32_t cells = shared_.method.light_cells(context);
-    if (!side.bins.raster_vertices)
-        side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, cells);
-    list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, window,
-                shared_.raster == "prism" ? Listing::bounds : Listing::swept, side.bins);
-    context.bytes = share();
-    side.map = shared_.method.make_map(context, side.bins);
+    if (side.bins.raster_vertices) return;
+    side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view,
+                               shared_.method.light_cells(contexts_[light]));
+}
+
+void Lights::map_lists(size_t light) {
+    contexts_[light].bytes = share();
+    lights_[light].side.map = shared_.method.make_map(contexts_[light], lights_[light].side.bins);
+}
+
+void Lights::finish_map(size_t light) {
+    Light& made = lights_[light];
+    LightSide& side = made.side;
     side.bands = side.map->bands(share());
+    std::map<std::string, uint64_t>& counts = made.counts[side.bins.window.tile_first];
+    counts = side.map->counts();
+    counts["bin_entries"] = side.bins.entry_count;
+    made.effective = side.map->effective();
+    made.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
 }
 
 void Lights::make(size_t light, size_t window) {
     Light& made = lights_[light];
     LightSide& side = made.side;
     if (side.map && side.bins.window == made.windows[window]) return;
-    while (!with_room(light, [&] { make_map(light, made.windows[window]); })) {
+    const auto work = [&] {
+        project(light);
+        list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, made.windows[window], listing(), side.bins);
+        map_lists(light);
+        finish_map(light);
+    };
+    while (!with_room(light, work)) {
         release_side(side);
         if (!shared_.method.windowed || !halve(made.windows, window, side.view)) std::rethrow_exception(failure_);
     }
-    std::map<std::string, uint64_t>& counts = made.counts[side.bins.window.tile_first];
-    counts = side.map->counts();
-    counts["bin_entries"] = side.bins.entry_count;
-    made.effective = side.map->effective();
-    made.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
 }
 
 uint32_t Lights::most_strata() const {

@@ -54,8 +54,14 @@ private:
     };
 
     uint64_t most_tiles(const LightContext& context) const;
+    Listing listing() const { return shared_.raster == "prism" ? Listing::bounds : Listing::swept; }
+    void make_together();
+    /// Have windows[window] of the light in memory. Where it does not fit, other lights go, then it is halved.
     void make(size_t light, size_t window);
-    void make_map(size_t light, const Window& window);
+    // Steps of it.
+    void project(size_t light);
+    void map_lists(size_t light);
+    void finish_map(size_t light);
     bool release_others(size_t light);
     /// Record the work, which counts to the lights' maps; where it does not fit into memory, release the other lights and try
     /// again. False where that is in vain.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <gnomon/error.hpp>
+#include <optional>
 
 #include "shared/rect.h"
 #include "stages/grid.hpp"
@@ -40,6 +41,14 @@ struct BlockPass {
     uint32_t block_count = 0;
 };
 
+[[noreturn]] void fail_lists(const View& view, const std::string& what) {
+    throw Error(ErrorKind::out_of_memory, what + " in the tiles of a view are more than the device can bind",
+                std::to_string(view.width) + "x" + std::to_string(view.height),
+                "all lie in one of its tiles: use a larger --size or --shadow-res, or fewer --time-steps");
+}
+
+}  // namespace
+
 // Lists the prisms of one window; counts first, fills after.
 class Lister {
 public:
@@ -65,22 +74,22 @@ public:
         rects_ = device.allocate("rects", cells * chunk_ * sizeof(glm::uvec2));
         block_counts_ = device.allocate("block_counts", cells * parts_ * 4);
         block_cursor_ = device.allocate("block_cursor", 4);
+        set_up({0, std::min(chunk_, bins.grid.triangle_count)});
     }
 
     /// One pass over all prisms. fill: the lists' cursors and entries, else only their counts.
     void run(bool fill, const gpu::Buffer& lists, const gpu::Buffer& entries) {
         for (uint32_t first = 0; first < bins_.grid.triangle_count; first += chunk_) {
             const Run chunk{first, std::min(chunk_, bins_.grid.triangle_count - first)};
-            if (!is_set_up(chunk)) set_up(chunk);
+            if (chunk.first != chunk_in_memory_.first) set_up(chunk);
+            make_passes();
             for (uint32_t cell = 0; cell < bins_.grid.cell_count; ++cell) list_small(fill, chunk, cell, lists, entries);
             for (const BlockPass& pass : passes_) list_large(fill, chunk, pass, lists, entries);
         }
     }
 
 private:
-    bool is_set_up(const Run& chunk) const { return chunk_in_memory_.count > 0 && chunk.first == chunk_in_memory_.first; }
-
-    // The rectangles of a chunk, and how its blocks are cut into passes.
+    // The rectangles of a chunk.
     void set_up(const Run& chunk) {
         gpu::Recorder& recorder = device_.recorder();
         const uint32_t cells = bins_.grid.cell_count;
@@ -95,10 +104,18 @@ private:
                                                   rect_.first_tile, rect_.last_tile},
                               groups_of(chunk.count, 64));
         }
-        const std::vector<uint32_t> counts = gpu::download_vector<uint32_t>(device_, block_counts_, uint64_t(cells) * parts_);
+        blocks_of_chunk_ = recorder.download(block_counts_, 0, uint64_t(cells) * parts_ * 4);
         chunk_in_memory_ = chunk;
+    }
+
+    // Of the chunk's blocks.
+    void make_passes() {
+        if (!blocks_of_chunk_) return;
+        const std::vector<uint32_t> counts = gpu::values_of<uint32_t>(device_, *blocks_of_chunk_);
+        blocks_of_chunk_.reset();
         passes_.clear();
         uint32_t most = 0;
+        const uint32_t cells = bins_.grid.cell_count;
         for (uint32_t cell = 0; cell < cells; ++cell) {
             for (uint32_t part = 0; part < parts_; ++part) {
                 const uint32_t blocks = counts[cell * parts_ + part];
@@ -106,7 +123,7 @@ private:
                 if (passes_.empty() || passes_.back().block_count + uint64_t(blocks) > most_blocks_) passes_.emplace_back();
                 BlockPass& pass = passes_.back();
                 const uint32_t first = part << part_log2_;
-                pass.pieces.push_back({cell, {first, std::min(1u << part_log2_, chunk.count - first)}});
+                pass.pieces.push_back({cell, {first, std::min(1u << part_log2_, chunk_in_memory_.count - first)}});
                 pass.block_count += blocks;
                 most = std::max(most, pass.block_count);
             }
@@ -167,15 +184,8 @@ private:
     Run chunk_in_memory_;
     std::vector<BlockPass> passes_;
     gpu::Buffer rects_, block_counts_, block_cursor_, blocks_;
+    std::optional<gpu::Download> blocks_of_chunk_;  // Until passes are made of them.
 };
-
-[[noreturn]] void fail_lists(const View& view, const std::string& what) {
-    throw Error(ErrorKind::out_of_memory, what + " in the tiles of a view are more than the device can bind",
-                std::to_string(view.width) + "x" + std::to_string(view.height),
-                "all lie in one of its tiles: use a larger --size or --shadow-res, or fewer --time-steps");
-}
-
-}  // namespace
 
 Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count) {
     Bins bins;
@@ -207,36 +217,52 @@ Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geo
     return bins;
 }
 
-void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
-                 Listing listing, Bins& bins) {
+Binning::Binning(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
+                 Listing listing, Bins& bins)
+    : device_(device), programs_(programs), view_(view), bins_(bins) {
     const gpu::Limits& limits = device.limits();
     bins.window = window;
     bins.grid.tile_first = window.tile_first;
     bins.offsets = gpu::Buffer();
     bins.entries = gpu::Buffer();
-    const uint64_t list_count = uint64_t(window.tile_count) * bins.grid.cell_count;
-    if (scan_bytes(list_count) > std::min(limits.max_storage_range, limits.most_elements(4) * 4))
-        fail_lists(view, std::to_string(list_count) + " lists");
-    bins.offsets = device.allocate("bin_offsets", scan_bytes(list_count));
-    gpu::Buffer cursors = device.allocate("bin_cursors", scan_bytes(list_count));  // First the counts.
-    Lister lister(device, programs, geometry, view, listing, bins);
+    const uint64_t lists = bins.item_count();
+    if (scan_bytes(lists) > std::min(limits.max_storage_range, limits.most_elements(4) * 4))
+        fail_lists(view, std::to_string(lists) + " lists");
+    bins.offsets = device.allocate("bin_offsets", scan_bytes(lists));
+    cursors_ = device.allocate("bin_cursors", scan_bytes(lists));
+    lister_ = std::make_unique<Lister>(device, programs, geometry, view, listing, bins);
+}
 
-    gpu::Recorder& recorder = device.recorder();
-    recorder.fill("bin/count", cursors, 0);
-    const gpu::Buffer no_entries = device.allocate("bin_entries", 4);
-    lister.run(false, cursors, no_entries);
-    const Scan scan = record_scan(device, programs, cursors, static_cast<uint32_t>(list_count), bins.offsets);
-    recorder.copy("bin/fill", bins.offsets, 0, cursors, 0, scan_bytes(list_count));
-    const gpu::Download total = recorder.download(bins.offsets, list_count * 4, 4);
-    const gpu::Download longest = recorder.download(scan.longest, 0, 4);
-    recorder.submit();
-    bins.entry_count = total.values<uint32_t>()[0];
-    bins.longest = longest.values<uint32_t>()[0];
-    if (bins.entry_count == shared::kNone) fail_lists(view, "more than 2^32 prisms");
-    if (bins.entry_count > std::min(limits.max_storage_range / 4, limits.most_elements(4)))
-        fail_lists(view, std::to_string(bins.entry_count) + " prisms");
-    bins.entries = device.allocate("bin_entries", uint64_t(bins.entry_count) * 4);
-    if (bins.entry_count > 0) lister.run(true, cursors, bins.entries);
+Binning::~Binning() = default;
+Binning::Binning(Binning&&) noexcept = default;
+
+void Binning::count() {
+    gpu::Recorder& recorder = device_.recorder();
+    const uint64_t lists = bins_.item_count();
+    recorder.fill("bin/count", cursors_, 0);
+    lister_->run(false, cursors_, device_.allocate("bin_entries", 4));
+    const Scan scan = record_scan(device_, programs_, cursors_, static_cast<uint32_t>(lists), bins_.offsets);
+    recorder.copy("bin/fill", bins_.offsets, 0, cursors_, 0, scan_bytes(lists));
+    total_ = recorder.download(bins_.offsets, lists * 4, 4);
+    longest_ = recorder.download(scan.longest, 0, 4);
+}
+
+void Binning::fill() {
+    const gpu::Limits& limits = device_.limits();
+    bins_.entry_count = gpu::values_of<uint32_t>(device_, total_)[0];
+    bins_.longest = gpu::values_of<uint32_t>(device_, longest_)[0];
+    if (bins_.entry_count == shared::kNone) fail_lists(view_, "more than 2^32 prisms");
+    if (bins_.entry_count > std::min(limits.max_storage_range / 4, limits.most_elements(4)))
+        fail_lists(view_, std::to_string(bins_.entry_count) + " prisms");
+    bins_.entries = device_.allocate("bin_entries", uint64_t(bins_.entry_count) * 4);
+    if (bins_.entry_count > 0) lister_->run(true, cursors_, bins_.entries);
+}
+
+void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
+                 Listing listing, Bins& bins) {
+    Binning binning(device, programs, geometry, view, window, listing, bins);
+    binning.count();
+    binning.fill();
 }
 
 Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,

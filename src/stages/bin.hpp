@@ -31,8 +31,32 @@ enum class Listing {
 /// Errors: ErrorKind::out_of_memory.
 Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count);
 
-/// Bound, count, scan, fill: the lists of a window, instead of those that there are.
-/// Errors: ErrorKind::out_of_memory, also where the lists are more than the device can bind.
+class Lister;
+
+/// The lists of a window in the making, instead of those that the bins have: bound, count, fill. The host reads results between
+/// the steps, so several views that take them together wait together. The arguments outlive it.
+class Binning {
+public:
+    /// Errors, of every step: ErrorKind::out_of_memory, also where the lists are more than the device can bind.
+    Binning(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
+            Listing listing, Bins& bins);
+    ~Binning();
+    Binning(Binning&&) noexcept;
+
+    void count();
+    void fill();
+
+private:
+    gpu::Device& device_;
+    Programs& programs_;
+    const View& view_;
+    Bins& bins_;
+    std::unique_ptr<Lister> lister_;
+    gpu::Buffer cursors_;  // First the counts.
+    gpu::Download total_, longest_;
+};
+
+/// All steps.
 void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
                  Listing listing, Bins& bins);
 

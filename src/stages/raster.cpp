@@ -57,14 +57,14 @@ uint64_t SBuffer::bytes_per_range() const {
 }
 
 uint64_t SBuffer::map_bytes() const {
-    uint64_t bytes = range_count_ * bytes_per_range() + raster_->source_bytes();
+    uint64_t bytes = range_count() * bytes_per_range() + raster_->source_bytes();
     for (const Memory& m : memory_) bytes += m.description.per == LayoutBuffer::Per::list ? m.buffer.bytes() : 0;
     return bytes;
 }
 
 std::map<std::string, uint64_t> SBuffer::counts() const {
     std::map<std::string, uint64_t> counts = raster_->counts();
-    counts["ranges"] = range_count_;
+    counts["ranges"] = range_count();
     counts["map_bytes"] = map_bytes();
     return counts;
 }
@@ -150,37 +150,46 @@ void SBuffer::count() {
         record_scan(device_, programs_, m.counts, static_cast<uint32_t>(list_count_), m.buffer);
         m.counts = gpu::Buffer();
     }
-    for (const glm::uvec2& total :
-         gpu::download_vector<glm::uvec2>(device_, raster_counts_, groups_of(item_count_, shared::kCountBlock), kTicketBytes)) {
-        block_ranges_.push_back(uint64_t(total.y) << 32 | total.x);
-        range_count_ += block_ranges_.back();
+    const uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
+    totals_ = recorder.download(raster_counts_, kTicketBytes, blocks * sizeof(glm::uvec2));
+}
+
+const SBuffer::Counted& SBuffer::counted() const {
+    if (counted_) return *counted_;
+    Counted counted;
+    for (const glm::uvec2& total : gpu::values_of<glm::uvec2>(device_, totals_)) {
+        counted.block_ranges.push_back(uint64_t(total.y) << 32 | total.x);
+        counted.range_count += counted.block_ranges.back();
     }
-    if (range_count_ >= 0xffffffffull) {
-        throw Error(ErrorKind::out_of_memory, std::to_string(range_count_) + " ranges in a light's view", "S-buffer",
+    if (counted.range_count >= 0xffffffffull) {
+        throw Error(ErrorKind::out_of_memory, std::to_string(counted.range_count) + " ranges in a light's view", "S-buffer",
                     "use a smaller --shadow-res");
     }
+    counted_ = std::move(counted);
+    return *counted_;
 }
 
 std::vector<Band> SBuffer::bands(uint64_t bytes) const {
     // What the device can read through one texel buffer bounds a band too.
     uint64_t most = std::min(bytes / std::max<uint64_t>(1, bytes_per_range()), device_.limits().most_elements(16));
     most = most > 2 * kRangeAlign ? most - 2 * kRangeAlign : 1;
+    const std::vector<uint64_t>& block_ranges = counted().block_ranges;
     std::vector<Band> result(1);
-    for (size_t i = 0; i < block_ranges_.size(); ++i) {
+    for (size_t i = 0; i < block_ranges.size(); ++i) {
         Band* band = &result.back();
-        if (block_ranges_[i] > most) {
+        if (block_ranges[i] > most) {
             throw Error(
                 ErrorKind::out_of_memory,
-                "the ranges of one block of tiles take " + std::to_string(block_ranges_[i] * bytes_per_range()) + " bytes",
+                "the ranges of one block of tiles take " + std::to_string(block_ranges[i] * bytes_per_range()) + " bytes",
                 "S-buffer", "allow a larger --memory-budget or use a larger --shadow-res");
         }
-        if (band->range_count + block_ranges_[i] > most) {
+        if (band->range_count + block_ranges[i] > most) {
             result.push_back({band->item_first + band->item_count, 0, band->range_first + band->range_count, 0});
             band = &result.back();
         }
         band->item_count +=
             std::min<uint32_t>(shared::kCountBlock, item_count_ - static_cast<uint32_t>(i) * shared::kCountBlock);
-        band->range_count += block_ranges_[i];
+        band->range_count += block_ranges[i];
     }
     return result;
 }
@@ -195,7 +204,7 @@ std::vector<Band> SBuffer::parts(const Band& band) const {
     std::vector<Band> result = {{band.item_first, 0, band.range_first, 0}};
     uint32_t end = band.item_first + band.item_count;
     for (uint32_t item = band.item_first; item < end; item += shared::kCountBlock) {
-        uint64_t ranges = block_ranges_[item / shared::kCountBlock];
+        uint64_t ranges = counted().block_ranges[item / shared::kCountBlock];
         uint32_t items = std::min(shared::kCountBlock, end - item);
         Band* part = &result.back();
         if (ranges > most_ranges) {

@@ -2,6 +2,8 @@
 // The S-buffer of a light's view: all ranges of all texels, in a layout.
 #pragma once
 
+#include <optional>
+
 #include "layouts/layout.hpp"
 #include "stages/grid.hpp"
 #include "stages/raster_stage.hpp"
@@ -11,10 +13,10 @@ namespace gnomon {
 class SBuffer final : public ShadowMap {
 public:
     /// Count the ranges of all lists. raster: compiled for the layout.
-    /// Errors: ErrorKind::out_of_memory where one block of tiles alone is too much for the device.
+    /// Errors: ErrorKind::out_of_memory, also later, when the count is known.
     SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout);
 
-    uint64_t range_count() const { return range_count_; }
+    uint64_t range_count() const { return counted().range_count; }
     uint64_t list_count() const { return list_count_; }
     const shared::ViewGrid& grid() const { return raster_->grid(); }
     /// Of all lists and ranges, and of what they are made from.
@@ -38,6 +40,13 @@ private:
         gpu::Buffer counts;  ///< What the count pass writes instead, where `buffer` is to be the prefix sum of it.
     };
 
+    /// The result of the count pass, which the host waits for when it first asks.
+    struct Counted {
+        std::vector<uint64_t> block_ranges;  ///< Per kCountBlock items.
+        uint64_t range_count = 0;
+    };
+    const Counted& counted() const;
+
     void count();
     void prepare(uint32_t item);
     size_t portion_of(uint32_t item) const;
@@ -54,11 +63,11 @@ private:
     size_t prepared_ = ~size_t(0);  ///< Which of them is.
     uint32_t item_count_ = 0;
     uint64_t list_count_ = 0;
-    uint64_t range_count_ = 0;
     uint32_t range_base_ = 0;
-    std::vector<uint64_t> block_ranges_;  ///< Per kCountBlock items.
-    gpu::Buffer raster_counts_;           ///< A ticket, and the ranges of each block of items.
-    Unbound unbound_;                     ///< Stands in for the ranges while they are counted.
+    gpu::Download totals_;
+    mutable std::optional<Counted> counted_;
+    gpu::Buffer raster_counts_;  ///< A ticket, and the ranges of each block of items.
+    Unbound unbound_;            ///< Stands in for the ranges while they are counted.
     std::vector<Memory> memory_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "shared/params.h"
 #include "stage_test.hpp"
+#include "stages/grid.hpp"
 #include "support/two_cubes.hpp"
 
 namespace gnomon::test {
@@ -23,13 +24,14 @@ protected:
         std::vector<float> flat;
         for (const auto& s : samples) flat.insert(flat.end(), s.begin(), s.end());
         const gpu::Buffer in = gpu::upload_new(device(), "samples", flat);
-        const gpu::Buffer counts = device().allocate("counts", 64 * 4), none = device().allocate("none", 16);
+        const gpu::Buffer counts = device().allocate("counts", 64 * 4);
+        const Unbound unbound(device(), 3);
         const gpu::Buffer offsets = gpu::upload_new(device(), "offsets", std::vector<uint32_t>(164, 7u));
-        const auto run = [&](bool fill, const gpu::Buffer& scanned, const gpu::Buffer& clusters) {
+        const auto run = [&](bool fill, const gpu::Binding& scanned, const gpu::Binding& clusters) {
             const std::vector<gpu::Binding> all = {{"map_samples", &in, gpu::Texel::r32_float},
-                                                   {"scanned", &scanned, gpu::Texel::r32_uint},
-                                                   {"Counts", fill ? &none : &counts},
-                                                   {"Clusters", &clusters},
+                                                   scanned,
+                                                   fill ? unbound.at(2, "Counts") : gpu::Binding{"Counts", &counts},
+                                                   clusters,
                                                    {"Offsets", &offsets}};
             gpu::Recorder recorder(device());
             recorder.dispatch(
@@ -37,12 +39,13 @@ protected:
                 shared::ClusterParams{1, static_cast<uint32_t>(samples.size()), 100, 1000, extent, extent_per_metre}, 1);
             recorder.submit();
         };
-        run(false, none, none);
+        run(false, unbound.at(0, "scanned", gpu::Texel::r32_uint), unbound.at(1, "Clusters"));
         const auto found = gpu::download_vector<uint32_t>(device(), counts, 64);
         std::vector<uint32_t> begin(1, 0u);
         for (const uint32_t c : found) begin.push_back(begin.back() + c);
         const gpu::Buffer clusters = device().allocate("clusters", begin.back() * sizeof(glm::vec2));
-        run(true, gpu::upload_new(device(), "scanned", begin), clusters);
+        const gpu::Buffer scanned = gpu::upload_new(device(), "scanned", begin);
+        run(true, {"scanned", &scanned, gpu::Texel::r32_uint}, {"Clusters", &clusters});
         const auto all = gpu::download_vector<glm::vec2>(device(), clusters, begin.back());
         const auto places = gpu::download_vector<uint32_t>(device(), offsets, 164);
         std::vector<Function> result;
