@@ -20,6 +20,9 @@ namespace gnomon::gpu {
 /// How a shader sees a buffer through a (uniform) texel buffer: samplerBuffer or usamplerBuffer.
 enum class Texel { r32_float, rg32_float, rgba32_float, r32_uint, rg32_uint, rgba32_uint };
 
+/// Devices that have fewer texels in a buffer view read through storage buffers.
+constexpr uint64_t kManyTexels = uint64_t{1} << 24;
+
 struct Limits {
     uint64_t heap_bytes = 0;         ///< Of the largest device-local heap.
     uint64_t max_buffer_bytes = 0;   ///< One allocation.
@@ -39,7 +42,7 @@ struct Limits {
     bool is_cpu = false;
 
     /// Stages read through storage buffers: some devices have texel buffers of as few as 65,536 elements.
-    bool storage_reads() const { return !texel_reads || max_texels < (uint64_t{1} << 24); }
+    bool storage_reads() const { return !texel_reads || max_texels < kManyTexels; }
     /// Elements of so many bytes that a stage can read through one binding.
     uint64_t most_elements(uint64_t bytes) const { return storage_reads() ? max_storage_range / bytes : max_texels; }
 };

@@ -93,7 +93,8 @@ void find_queue(Candidate& candidate) {
 void find_missing_limits(const VkPhysicalDeviceLimits& limits, std::vector<std::string>& missing) {
     constexpr uint64_t kTexels = 65536;
     constexpr uint64_t kStorageRange = uint64_t{1} << 27;
-    constexpr uint64_t kStorageBuffers = 4;
+    // With texels enough, and where everything is read through storage buffers: methods/temporal/shadow@linked.
+    constexpr uint64_t kStorageBuffers = 4, kStorageReadBuffers = 16;
     constexpr uint64_t kTexelBuffers = 16;
     constexpr uint64_t kPushConstantBytes = 128;
     constexpr uint64_t kInvocations = 64;
@@ -106,7 +107,8 @@ void find_missing_limits(const VkPhysicalDeviceLimits& limits, std::vector<std::
     const std::array needs{
         Need{limits.maxTexelBufferElements, kTexels, "texels in a buffer view"},
         Need{limits.maxStorageBufferRange, kStorageRange, "bytes in a storage binding"},
-        Need{limits.maxPerStageDescriptorStorageBuffers, kStorageBuffers, "storage buffers"},
+        Need{limits.maxPerStageDescriptorStorageBuffers,
+             limits.maxTexelBufferElements < kManyTexels ? kStorageReadBuffers : kStorageBuffers, "storage buffers"},
         Need{limits.maxPerStageDescriptorSampledImages, kTexelBuffers, "texel buffers"},
         Need{limits.maxPushConstantsSize, kPushConstantBytes, "bytes of push constants"},
         Need{limits.maxComputeWorkGroupInvocations, kInvocations, "invocations in a workgroup"},

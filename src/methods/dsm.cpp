@@ -72,7 +72,9 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
     }
     offsets_ = device.allocate("map_offsets", (texels + 1) * 4);
     const uint64_t tile_bytes = uint64_t(sampling_.spp) * shared::kTileTexels * 4;
-    const auto step = static_cast<uint32_t>(std::clamp<uint64_t>(kBatchBytes / tile_bytes, 1, tile_count_));
+    const uint64_t batch_bytes =
+        std::min({kBatchBytes, device.limits().max_storage_range, device.limits().most_elements(4) * 4});
+    const auto step = static_cast<uint32_t>(std::clamp<uint64_t>(batch_bytes / tile_bytes, 1, tile_count_));
     std::vector<Piece> pieces;
     {
         Tracer tracer(device, light.programs, light.geometry, light.view, bins, "map/trace", sampling_,

@@ -41,10 +41,10 @@ uint64_t Lights::most_tiles(const LightContext& context) const {
     const gpu::Limits& limits = shared_.device.limits();
     const uint64_t cells = shared_.method.light_cells(context);
     const uint64_t lists = std::min(limits.max_storage_range / 4, limits.most_elements(4)) - shared::kScanRun;
-    uint64_t most = lists / cells;
-    if (shared_.method.has_s_buffer())
-        most = std::min(most, (limits.most_elements(4) - shared::kScanRun) / (cells * shared::kTileTexels));
-    return most;
+    // A map without ranges has at most 8 bytes for a texel in one binding.
+    const uint64_t texels = shared_.method.has_s_buffer() ? (limits.most_elements(4) - shared::kScanRun) / cells
+                                                          : std::min(limits.max_storage_range, limits.most_elements(4) * 4) / 8;
+    return std::min(lists / cells, texels / shared::kTileTexels);
 }
 
 void Lights::prepare() {
