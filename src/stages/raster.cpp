@@ -42,12 +42,15 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     const uint64_t list_elements = scanned ? scan_bytes(list_count_) / 4 : list_count_;
     for (const LayoutBuffer& description : layout_.buffers) {
         uint64_t bytes = description.per == LayoutBuffer::Per::list ? list_elements * description.element_bytes : 4;
-        gpu::Buffer buffer = description.per == LayoutBuffer::Per::range
-                                 ? gpu::Buffer()
-                                 : device.allocate("s_buffer." + description.block, bytes);
-        memory_.push_back({description, std::move(buffer), {}});
+        const bool later = description.per == LayoutBuffer::Per::range || copies_sums(description);
+        memory_.push_back({description, later ? gpu::Buffer() : device.allocate("s_buffer." + description.block, bytes), {}});
     }
     count();
+}
+
+bool SBuffer::copies_sums(const LayoutBuffer& buffer) const {
+    return std::any_of(layout_.buffers.begin(), layout_.buffers.end(),
+                       [&](const LayoutBuffer& b) { return b.scan && b.per == buffer.per && b.block == buffer.copy_of; });
 }
 
 uint64_t SBuffer::bytes_per_range() const {
@@ -82,6 +85,10 @@ void SBuffer::record_pass(bool fill, const Band& part) {
                 all.push_back({m.description.block, &m.buffer});
                 break;
             case LayoutBuffer::Per::list:
+                if (!m.buffer) {
+                    all.push_back(unbound_.at(i, m.description.block));
+                    break;
+                }
                 all.push_back({m.description.block,
                                m.counts ? &m.counts : &m.buffer,
                                {},
@@ -124,12 +131,21 @@ void SBuffer::prepare(uint32_t item) {
     prepared_ = portion;
 }
 
+// What was counted becomes the memory of a copy of its sums, where the layout has one.
+std::vector<SBuffer::Memory>::iterator SBuffer::copy_of(const Memory& sums) {
+    return std::find_if(memory_.begin(), memory_.end(), [&](const Memory& other) {
+        return !other.buffer && other.description.copy_of == sums.description.block;
+    });
+}
+
 void SBuffer::count() {
     gpu::Recorder& recorder = device_.recorder();
     recorder.fill(raster_->timing(false), raster_counts_, 0);
     for (Memory& m : memory_) {
         if (!m.description.scan) continue;
-        m.counts = device_.allocate("s_buffer.counts", m.buffer.bytes());
+        const auto copy = copy_of(m);
+        m.counts =
+            device_.allocate("s_buffer." + (copy == memory_.end() ? "counts" : copy->description.block), m.buffer.bytes());
         recorder.fill(raster_->timing(false), m.counts, 0);
     }
     // Lists are bound in parts that one binding can hold.
@@ -148,6 +164,8 @@ void SBuffer::count() {
     for (Memory& m : memory_) {
         if (!m.counts) continue;
         record_scan(device_, programs_, m.counts, static_cast<uint32_t>(list_count_), m.buffer);
+        const auto copy = copy_of(m);
+        if (copy != memory_.end()) copy->buffer = std::move(m.counts);
         m.counts = gpu::Buffer();
     }
     const uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
@@ -233,11 +251,13 @@ void SBuffer::fill(const Band& band) {
             device_.allocate("s_buffer." + m.description.block, std::max<uint64_t>(1, held) * m.description.element_bytes);
     }
     gpu::Recorder& recorder = device_.recorder();
-    for (const Memory& m : memory_) {
+    for (Memory& m : memory_) {
         const LayoutBuffer& d = m.description;
         if (!d.copy_of.empty()) {
             auto source = std::find_if(memory_.begin(), memory_.end(),
                                        [&](const Memory& other) { return other.description.block == d.copy_of; });
+            if (source != memory_.end() && !m.buffer)  // A second copy.
+                m.buffer = device_.allocate("s_buffer." + d.block, source->buffer.bytes());
             if (source == memory_.end() || source->buffer.bytes() != m.buffer.bytes()) {
                 throw Error(ErrorKind::input, "'copy_of' names no buffer of the same size: " + d.copy_of,
                             layout_.name + "/layout.json", "name one of its blocks");

@@ -47,6 +47,8 @@ private:
     };
     const Counted& counted() const;
 
+    bool copies_sums(const LayoutBuffer& buffer) const;
+    std::vector<Memory>::iterator copy_of(const Memory& sums);
     void count();
     void prepare(uint32_t item);
     size_t portion_of(uint32_t item) const;
