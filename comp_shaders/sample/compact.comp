@@ -21,7 +21,7 @@ void main() {
     if (run == 0u) {
         uint hits = fetch_runs(params.run_count);
         uint groups = (hits + 63u) / 64u;
-        uint rows = max((groups + params.max_groups - 1u) / params.max_groups, 1u);
+        uint rows = max((groups + kShadowRow - 1u) / kShadowRow, 1u);
         shadow_groups = uvec3((groups + rows - 1u) / rows, rows, 1u);
         uint low = hit_total.x + hits;
         hit_total = uvec2(low, hit_total.y + (low < hits ? 1u : 0u));

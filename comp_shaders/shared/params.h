@@ -31,6 +31,8 @@ const uint kMostTurns = 65535u;
 const uint kListChunk = 6144u;
 // Fragments of a list that one dispatch of raster/prism pairs, up to the end of a prism's.
 const uint kPairChunk = 32768u;
+// Most workgroups of the shadow test in a row; its dispatch can be cut between rows.
+const uint kShadowRow = 128u;
 // Triangles that one invocation bounds.
 const uint kBoundsRun = 16u;
 // Elements that one invocation scans.
@@ -184,8 +186,7 @@ struct FssmMipParams {
 };
 
 struct CompactParams {
-    uint run_count;   // Runs of kScanRun samples.
-    uint max_groups;  // Along one axis of a dispatch; of compact.
+    uint run_count;  // Runs of kScanRun samples.
 };
 
 struct ShadowParams {

@@ -36,9 +36,10 @@ struct Limits {
     uint32_t crew = 8;               ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
     uint32_t storage_buffers = 4;    ///< Of one shader.
     uint32_t push_constant_bytes = 128;
-    uint32_t dispatch_ms = 200;  ///< Milliseconds; what is expected to take longer is cut into pieces.
-    bool timestamps = false;     ///< Else stages have no seconds.
-    bool mapped = false;         ///< The host sees buffers; else uploads and downloads are staged.
+    uint32_t dispatch_ms = 50;  ///< Milliseconds; what is expected to take longer is cut into pieces. Ten times less than is
+                                ///< allowed, since the next piece may hold more work.
+    bool timestamps = false;    ///< Else stages have no seconds.
+    bool mapped = false;        ///< The host sees buffers; else uploads and downloads are staged.
     bool is_cpu = false;
 
     /// Stages read through storage buffers: some devices have texel buffers of as few as 65,536 elements.

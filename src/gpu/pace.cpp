@@ -9,7 +9,8 @@ namespace {
 
 constexpr uint64_t kFirstProbe = 256;  // workgroups; about what a large device runs at one time
 constexpr uint64_t kGrowth = 4;  // at most, from one piece to a larger one: the same number of workgroups may hold more work
-constexpr double kDecay = 0.5;   // of a maximum, with each measurement
+constexpr double kDecay =
+    0.98;  // of a maximum, with each measurement: dear and cheap work take turns, and small pieces cost little
 constexpr uint64_t kProbeRow = 64;
 constexpr uint64_t kRow = 1024;
 

@@ -68,7 +68,7 @@ void Sampler::trace(const Batch& batch) {
     tracer_.record(recorder, batch);
     lit_written_ = false;
     recorder.fill("sample/compact", run_hits_, 0);
-    const shared::CompactParams params{run_count_, device_.limits().max_groups};
+    const shared::CompactParams params{run_count_};
     recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
                       bindings({{"hits", &tracer_.hits(), Texel::rgba32_uint}, {"Runs", &run_hits_}}), params,
                       groups_of(run_count_, 64));
@@ -115,6 +115,9 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                        settings_.count_ranges,  parts > 1,          first};
     const std::vector<uint32_t> own = light.map->test_constants();
     constants.insert(constants.end(), own.begin(), own.end());
+    // Rows are of equal length: up to one more in each.
+    const uint64_t hit_groups = groups_of(batch_.slot_count(), 64);
+    const uint64_t most_groups = hit_groups + groups_of(hit_groups, shared::kShadowRow);
     for (uint32_t part = 0; part < parts; ++part) {
         shared::ShadowParams params{bins_.grid,
                                     run_count_,
@@ -143,7 +146,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                     part};
         recorder.fill("sample/shadow", ticket_, 0);
         recorder.dispatch_indirect("sample/shadow", programs_.get(settings_.shadow_stage, constants), all, params,
-                                   shadow_groups_, 0, groups_of(batch_.slot_count(), 64));
+                                   shadow_groups_, 0, most_groups);
     }
     if (!settings_.count_ranges) return;
     const uint64_t blocks = groups_of(batch_.slot_count(), kCountersHits);
