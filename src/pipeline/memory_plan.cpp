@@ -82,9 +82,8 @@ void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, u
     const uint64_t mebibytes = needed / (1u << 20) + 1;
     throw Error(ErrorKind::out_of_memory, "the scene's own data takes " + std::to_string(mebibytes) + " MiB of device memory",
                 scene.path.string(),
-                needed <= limits.heap_bytes
-                    ? "use --memory-budget " + std::to_string(mebibytes) + "M or more"
-                    : "the device has " + std::to_string(limits.heap_bytes >> 20) + " MiB: use a smaller scene");
+                "use --memory-budget " + std::to_string(mebibytes) + "M or more; the device says that it has " +
+                    std::to_string(limits.heap_bytes >> 20) + " MiB");
 }
 
 bool is_still(const std::vector<Pose>& poses) {
@@ -121,7 +120,8 @@ uint32_t light_cells(uint32_t segments, bool still) {
 uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities) {
     const gpu::Limits& limits = device.limits();
     const uint64_t all = uint64_t(tiles_across(view)) * tiles_down(view) * spp * shared::kTileTexels;
-    const uint64_t most = std::min({limits.is_cpu ? kBatchSlots : kGpuBatchSlots, all, device.budget_left() / 4 / (kSlotBytes + 4 * uint64_t(visibilities)),
+    const uint64_t most = std::min({limits.is_cpu ? kBatchSlots : kGpuBatchSlots, all,
+                                    device.budget_left() / 4 / (kSlotBytes + 4 * uint64_t(visibilities)),
                                     limits.max_storage_range / 8, limits.most_elements(4) / std::max(1u, visibilities)});
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }
