@@ -9,8 +9,8 @@ GN_BEGIN
 struct Rect {
     uvec2 first;
     uvec2 last;
-    uint seen;      // kSeenPositive, kSeenNegative; 0: not visible.
-    bool large;     // rect_is_large, of the whole view.
+    uint seen;   // kSeenPositive, kSeenNegative; 0: not visible.
+    bool large;  // rect_is_large, of the whole view.
 };
 
 GN_FN uvec2 pack_rect(uvec2 first, uvec2 last, uint seen, bool large) {
@@ -28,8 +28,8 @@ GN_FN Rect unpack_rect(uvec2 r) {
 
 GN_FN uint rect_tiles(uvec2 first, uvec2 last) { return (last.x - first.x + 1u) * (last.y - first.y + 1u); }
 
-// Large prisms are tested against each tile (bin/large), small ones are not (bin/small). first, last: in the whole view, so that
-// a tile's lists do not depend on the window. in_front: all of it has w > 0, so the bounds are tight.
+// Large prisms are tested against each tile (bin/large), small ones are not (bin/small). first, last: in the whole view, so
+// that a tile's lists do not depend on the window. in_front: all of it has w > 0, so the bounds are tight.
 GN_FN bool rect_is_large(uvec2 first, uvec2 last, bool in_front) { return !in_front || rect_tiles(first, last) > kSmallTiles; }
 
 // Tiles that each invocation of bin/large looks at, one after the other.

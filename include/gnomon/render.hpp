@@ -56,9 +56,9 @@ struct FrameStats {
     std::map<std::string, uint64_t> buffer_bytes;  ///< Largest size of each buffer.
     uint64_t peak_bytes = 0;                       ///< Most device memory at one time.
     std::map<std::string, uint64_t> counts;        ///< triangles, prisms, ranges, samples, hits, shadow_tests, ...
-    bool timed = true;            ///< Stages have seconds; not on devices that cannot tell the time.
-    uint64_t submissions = 0;     ///< Of work to the device; each is waited for.
-    double longest_dispatch = 0;  ///< Seconds of what ran longest as one.
+    bool timed = true;                             ///< Stages have seconds; not on devices that cannot tell the time.
+    uint64_t submissions = 0;                      ///< Of work to the device; each is waited for.
+    double longest_dispatch = 0;                   ///< Seconds of what ran longest as one.
     double wall_seconds = 0.0;
     std::string device;
 };
