@@ -125,8 +125,8 @@ public:
     /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and
     /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
     /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if the device had no more:
-    /// "texels=65536,texel_reads=0,crew=2,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,buffer=67108864,dispatch_ms=1,
-    /// timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's
+    /// "texels=65536,texel_reads=0,crew=2,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,
+    /// buffer=67108864,dispatch_ms=1,timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's
     /// own.
     Device(const std::string& choice, bool validate);
     ~Device();
