@@ -253,10 +253,8 @@ void Device::set_budget(uint64_t bytes) {
     impl_->budget = bytes;
     impl_->release_memory(impl_->most_held_bytes());
 }
-uint64_t Device::budget_left() const {
-    const uint64_t budget = impl_->budget > 0 ? impl_->budget : impl_->limits.heap_bytes;
-    return budget - std::min(budget, impl_->live_bytes);
-}
+uint64_t Device::budget() const { return impl_->budget > 0 ? impl_->budget : impl_->limits.heap_bytes; }
+uint64_t Device::budget_left() const { return budget() - std::min(budget(), impl_->live_bytes); }
 uint64_t Device::live_bytes() const { return impl_->live_bytes; }
 uint64_t Device::peak_bytes() const { return impl_->peak_bytes; }
 std::map<std::string, uint64_t> Device::largest_bytes() const { return impl_->largest_by_name; }

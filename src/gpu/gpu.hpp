@@ -126,8 +126,8 @@ public:
     /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
     /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if the device had no more:
     /// "texels=65536,texel_reads=0,crew=2,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,
-    /// buffer=67108864,dispatch_ms=1,timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and for values above the device's
-    /// own.
+    /// buffer=67108864,dispatch_ms=1,timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and
+    /// for values above the device's own.
     Device(const std::string& choice, bool validate);
     ~Device();
     Device(const Device&) = delete;
@@ -153,7 +153,8 @@ public:
     /// would fail without it. Where upload and download have to stage, they use 32 MiB of host memory for each recorder of one
     /// time besides.
     void set_budget(uint64_t bytes);
-    uint64_t budget_left() const;  ///< Of the budget; all that there is where there is none.
+    uint64_t budget() const;       ///< All that there is where none was set.
+    uint64_t budget_left() const;  ///< Of it.
     uint64_t live_bytes() const;
     uint64_t peak_bytes() const;
     std::map<std::string, uint64_t> largest_bytes() const;  ///< By buffer name.

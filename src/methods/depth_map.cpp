@@ -98,10 +98,9 @@ std::vector<Band> DepthMap::bands(uint64_t bytes) const {
     const gpu::Limits& limits = light_.device.limits();
     const uint64_t most = std::min({bytes / stratum_bytes, limits.max_storage_range / stratum_bytes,
                                     limits.most_elements(4) / (texels * sample_floats())});
-    if (most == 0) {
-        throw Error(ErrorKind::out_of_memory, "one stratum of a light's map takes " + std::to_string(stratum_bytes) + " bytes",
-                    "shadow map", "allow a larger --memory-budget or use a smaller --shadow-res");
-    }
+    if (most == 0)
+        throw BandTooLarge("the samples of one stratum of a light's map", "shadow map", stratum_bytes, bytes,
+                           "a smaller --shadow-res");
     std::vector<Band> result;
     for (uint64_t first = 0; first < sampling_.spp; first += most) {
         const uint64_t count = std::min(most, sampling_.spp - first);

@@ -156,9 +156,8 @@ std::vector<Band> Fssm::bands(uint64_t bytes) const {
     uint32_t most = rows_;
     while (most > 0 && !fits(most)) --most;
     if (most == 0) {
-        throw Error(ErrorKind::out_of_memory,
-                    "the layers and samples of one row of a light's map take " + std::to_string(needed(1)) + " bytes",
-                    "shadow map", "allow a larger --memory-budget, use a smaller --shadow-res or fewer --layers");
+        throw BandTooLarge("the layers and samples of one row of a light's map", "shadow map", needed(1), bytes,
+                           "a smaller --shadow-res or fewer --layers");
     }
     std::vector<Band> result;
     for (uint32_t first = 0; first < rows_; first += most) {

@@ -22,10 +22,15 @@ SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer*
                 light.layout};
     }
     // A quarter for the fragments: what the ranges take is bounded on its own, by the bands that are filled.
-    return {light.device, light.programs,
-            pair_fragments(light.device, light.programs, light.geometry, bins, shader,
-                           {orthographic, culls_back_faces(light), coverage}, light.bytes / 4),
-            light.layout};
+    constexpr uint64_t kShare = 4;
+    try {
+        return {light.device, light.programs,
+                pair_fragments(light.device, light.programs, light.geometry, bins, shader,
+                               {orthographic, culls_back_faces(light), coverage}, light.bytes / kShare),
+                light.layout};
+    } catch (const BandTooLarge& error) {
+        throw BandTooLarge(error, kShare);
+    }
 }
 
 class RangeMap final : public ShadowMap {

@@ -189,7 +189,11 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     const View view = camera_view(scene.cameras[settings.camera], poses, settings.camera, settings.width, settings.height);
     const bool still = is_still(poses);
     Bins bins = project_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, still));
-    const uint64_t most_slots = batch_slots(device, view, settings.spp, method.fractional ? frame.light_count : 0);
+    // What there is to share out: a light's vertices have to fit in as well.
+    const uint64_t light_bytes = scene.lights.empty() ? 0 : bins.raster_vertices.bytes();
+    const auto left = [&] { return device.budget_left() - std::min(device.budget_left(), light_bytes); };
+    const uint64_t room = left();
+    const uint64_t most_slots = batch_slots(device, view, settings.spp, method.fractional ? frame.light_count : 0, room / 4);
     Sampler sampler(device, programs, geometry, view, bins,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
@@ -199,9 +203,10 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
                      .fractional = method.fractional,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
-    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, still}, scene, poses, bounds);
-    std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count)));
-    const uint64_t camera_bytes = device.budget_left() / 2;
+    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still}, scene, poses,
+                   bounds);
+    std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
+    const uint64_t camera_bytes = left() / 2;
     uint64_t camera_entries = 0;
     bool stopped = false;
     for (size_t w = 0; w < windows.size() && !stopped; ++w) {
@@ -216,7 +221,7 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
             stopped = progress && !progress(done / (double(tiles_across(view)) * tiles_down(view)));
             if (stopped) break;
             sampler.trace(batches[b]);
-            shadows.test_shadows(sampler, batches[b], least_tolerance(bounds));
+            shadows.test_shadows(batches[b], least_tolerance(bounds));
             sampler.shade(lights, !lights_still(poses));
             if (b + 1 < batches.size()) device.recorder().submit();  // So that progress is what was done.
             if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);

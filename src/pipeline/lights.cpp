@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <gnomon/error.hpp>
+#include <optional>
 
 namespace gnomon {
 namespace {
 
 constexpr size_t kNotFilled = ~size_t(0);
+// A sixth at least of what is shared out is left for a band: of it a quarter goes to the batch; of the rest a quarter to the
+// film, and half to the camera's lists; of what remains at most a ninth to the lists of one tile.
+constexpr uint64_t kLeastShare = 6;
 
 void release_side(LightSide& side) {
     side.map.reset();
@@ -49,7 +53,18 @@ uint64_t Lights::most_tiles(const LightContext& context) const {
 
 void Lights::prepare() {
     make_together();
-    for (size_t i = 0; i < lights_.size(); ++i) make(i, 0);
+    // Only a count tells whether the ranges of a window fit. To make one may cut it in two.
+    std::optional<BandTooLarge> worst;
+    for (size_t i = 0; i < lights_.size(); ++i) {
+        for (size_t w = 0; w < (shared_.method.has_s_buffer() ? lights_[i].windows.size() : 1); ++w) {
+            try {
+                cut_to_fit(i, w, worst.has_value());
+            } catch (const BandTooLarge& error) {
+                if (!worst || error.needed > worst->needed) worst = error;
+            }
+        }
+    }
+    if (worst) refuse(*worst);
 }
 
 // Step by step for all lights, so that the host waits for all of them at once. Where they do not fit, nothing is made.
@@ -110,13 +125,27 @@ bool Lights::with_room(size_t light, Work work) {
             failure_ = std::current_exception();
             recorder.mark(true);
             more = release_others(light);
+            alone_ = true;
         }
     }
+    alone_ = false;
     recorder.mark(marked);
     return fits;
 }
 
+void Lights::refuse(const BandTooLarge& error) const {
+    if (error.needed <= error.available)
+        throw Error(error.kind(), std::string(error.what()) + ", more than the device can bind", "", "use " + error.other);
+    const uint64_t budget = shared_.device.budget(), others = budget - shared_.room;
+    const uint64_t enough =
+        std::max(others + kLeastShare * error.needed, budget + kLeastShare * (error.needed - error.available));
+    throw Error(error.kind(), error.what(), "",
+                "use --memory-budget " + std::to_string((enough >> 20) + 1) + "M or more, or " + error.other +
+                    "; the device says that it has " + std::to_string(shared_.device.limits().heap_bytes >> 20) + " MiB");
+}
+
 uint64_t Lights::share() const {
+    if (alone_) return shared_.device.budget_left();
     const auto unfilled =
         std::count_if(lights_.begin(), lights_.end(), [](const Light& light) { return light.side.filled == kNotFilled; });
     return shared_.device.budget_left() / static_cast<uint64_t>(std::max<std::ptrdiff_t>(1, unfilled));
@@ -139,6 +168,7 @@ void Lights::map_lists(size_t light) {
 void Lights::finish_map(size_t light) {
     Light& made = lights_[light];
     LightSide& side = made.side;
+    shared_.sampler.reserve_walk(side.map->longest());  // Before the bands take what is left.
     side.bands = side.map->bands(share());
     std::map<std::string, uint64_t>& counts = made.counts[side.bins.window.tile_first];
     counts = side.map->counts();
@@ -147,19 +177,38 @@ void Lights::finish_map(size_t light) {
     made.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
 }
 
-void Lights::make(size_t light, size_t window) {
+bool Lights::fits(size_t light, size_t window) {
     Light& made = lights_[light];
     LightSide& side = made.side;
-    if (side.map && side.bins.window == made.windows[window]) return;
-    const auto work = [&] {
+    if (side.map && side.bins.window == made.windows[window]) return true;
+    const bool fits = with_room(light, [&] {
         project(light);
         list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, made.windows[window], listing(), side.bins);
         map_lists(light);
         finish_map(light);
-    };
-    while (!with_room(light, work)) {
-        release_side(side);
-        if (!shared_.method.windowed || !halve(made.windows, window, side.view)) std::rethrow_exception(failure_);
+    });
+    if (!fits) release_side(side);
+    return fits;
+}
+
+void Lights::cut_to_fit(size_t light, size_t window, bool only_count) {
+    Light& made = lights_[light];
+    while (!fits(light, window)) {
+        try {
+            std::rethrow_exception(failure_);
+        } catch (const BandTooLarge&) {
+            if (only_count || !shared_.method.windowed || !halve(made.windows, window, made.side.view)) throw;
+        } catch (const Error&) {
+            if (!shared_.method.windowed || !halve(made.windows, window, made.side.view)) throw;
+        }
+    }
+}
+
+void Lights::make(size_t light, size_t window) {
+    try {
+        cut_to_fit(light, window, false);
+    } catch (const BandTooLarge& error) {
+        refuse(error);
     }
 }
 
@@ -174,7 +223,7 @@ uint32_t Lights::most_strata() const {
     return most;
 }
 
-void Lights::test_shadows(Sampler& sampler, const Batch& batch, float tolerance) {
+void Lights::test_shadows(const Batch& batch, float tolerance) {
     const double open = static_cast<double>(batch.stratum_first) / shared_.settings.spp;
     const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / shared_.settings.spp;
     for (size_t i = 0; i < lights_.size(); ++i) {
@@ -187,7 +236,7 @@ void Lights::test_shadows(Sampler& sampler, const Batch& batch, float tolerance)
                 if (band.t_close <= open || band.t_open >= close) continue;
                 if (side.filled != b && !with_room(i, [&] { side.map->fill(band); })) std::rethrow_exception(failure_);
                 side.filled = b;
-                sampler.test_shadows(side, band, tolerance);
+                shared_.sampler.test_shadows(side, band, tolerance);
             }
         }
     }

@@ -22,13 +22,16 @@ public:
         Layout layout;
         std::string raster;
         const View& camera;
+        Sampler& sampler;
+        uint64_t room = 0;   ///< Bytes of the budget that were shared out.
         bool still = false;  ///< Nothing moves.
     };
 
     /// Nothing is made yet. Point lights have no map.
     Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses, const Bounds& bounds);
 
-    /// Make each light's first window. Errors: ErrorKind::out_of_memory where not even a tile of a light's view fits.
+    /// Make each light's first window, and count every window's ranges, so that what cannot be rendered is refused before it is
+    /// begun. Errors: ErrorKind::out_of_memory where not even a tile of a light's view fits.
     void prepare();
     /// Free what can be made again; false where there is nothing.
     bool release();
@@ -37,7 +40,7 @@ public:
     /// once.
     uint32_t most_strata() const;
     /// Test the sampler's hits, of the batch, against every light.
-    void test_shadows(Sampler& sampler, const Batch& batch, float tolerance);
+    void test_shadows(const Batch& batch, float tolerance);
 
     /// Write counts, by "name.light", and what was really used.
     void report(Frame& frame) const;
@@ -59,6 +62,8 @@ private:
     /// Have windows[window] of the light in memory. Where it does not fit, other lights go, then it is halved.
     void make(size_t light, size_t window);
     // Steps of it.
+    void cut_to_fit(size_t light, size_t window, bool only_count);  ///< Count: nothing need be filled.
+    bool fits(size_t light, size_t window);                         ///< Without halving it; then it is in memory.
     void project(size_t light);
     void map_lists(size_t light);
     void finish_map(size_t light);
@@ -68,11 +73,13 @@ private:
     template <class Work>
     bool with_room(size_t light, Work work);
     uint64_t share() const;  ///< Bytes for the bands of one light.
+    [[noreturn]] void refuse(const BandTooLarge& error) const;
 
     Shared shared_;
     uint32_t light_count_;  ///< Point lights among them.
     std::vector<Light> lights_;
     std::vector<LightContext> contexts_;  ///< Of each light; its map refers to it.
+    bool alone_ = false;                  ///< The other lights gave way to the one that is worked on.
     std::exception_ptr failure_;          ///< Why something did not fit.
 };
 

@@ -15,10 +15,12 @@ constexpr uint32_t kLightCells = 4;
 // is waited for.
 constexpr uint64_t kBatchSlots = 4u << 20;
 constexpr uint64_t kGpuBatchSlots = 16u << 20;
-constexpr uint64_t kSlotBytes = 16;
+constexpr uint64_t kSlotBytes = 24;
 
-// A window of a tile, a batch of a few samples, and what is binned with them.
+// A window of a tile, a batch of a few samples, and what is binned with them; more for larger scenes, which would take hours in
+// so little.
 constexpr uint64_t kLeastWorkBytes = 4u << 20;
+constexpr uint64_t kLeastWorkShare = 16;
 
 bool same(const Rigid& a, const Rigid& b) { return a.translation == b.translation && a.rotation == b.rotation; }
 
@@ -77,7 +79,8 @@ void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, u
     }
     // The camera's view of the vertices, and one light's.
     const uint64_t views = (scene.lights.empty() ? 1 : 2) * buffers[1].elements * buffers[1].bytes;
-    const uint64_t needed = bytes_of(buffers) + views + kLeastWorkBytes;
+    const uint64_t data = bytes_of(buffers) + views;
+    const uint64_t needed = data + std::max(kLeastWorkBytes, data / kLeastWorkShare);
     if (needed <= budget) return;
     const uint64_t mebibytes = needed / (1u << 20) + 1;
     throw Error(ErrorKind::out_of_memory, "the scene's own data takes " + std::to_string(mebibytes) + " MiB of device memory",
@@ -117,18 +120,18 @@ uint32_t light_cells(uint32_t segments, bool still) {
     return std::max(1u, kLightCells / segments) * segments;
 }
 
-uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities) {
+uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities, uint64_t bytes) {
     const gpu::Limits& limits = device.limits();
     const uint64_t all = uint64_t(tiles_across(view)) * tiles_down(view) * spp * shared::kTileTexels;
-    const uint64_t most = std::min({limits.is_cpu ? kBatchSlots : kGpuBatchSlots, all,
-                                    device.budget_left() / 4 / (kSlotBytes + 4 * uint64_t(visibilities)),
-                                    limits.max_storage_range / 8, limits.most_elements(4) / std::max(1u, visibilities)});
+    const uint64_t most =
+        std::min({limits.is_cpu ? kBatchSlots : kGpuBatchSlots, all, bytes / (kSlotBytes + 4 * uint64_t(visibilities)),
+                  limits.max_storage_range / 8, limits.most_elements(4) / std::max(1u, visibilities)});
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }
 
-uint64_t film_tiles(const gpu::Device& device, uint32_t planes) {
-    const uint64_t bytes = std::min(device.limits().max_storage_range, device.budget_left() / 4);
-    return std::max<uint64_t>(1, bytes / (uint64_t(planes) * shared::kTileTexels * sizeof(float)));
+uint64_t film_tiles(const gpu::Device& device, uint32_t planes, uint64_t bytes) {
+    return std::max<uint64_t>(
+        1, std::min(device.limits().max_storage_range, bytes) / (uint64_t(planes) * shared::kTileTexels * sizeof(float)));
 }
 
 std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t most_slots, uint32_t most_strata) {

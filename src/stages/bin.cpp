@@ -21,7 +21,7 @@ static_assert(kMostTiles / (shared::kMostBlocks * shared::kBlockTiles) < shared:
 
 // Rectangles, and blocks, in memory at one time: what they take is seldom more.
 constexpr uint64_t kRectBytes = uint64_t{64} << 20;
-constexpr uint64_t kLeastBytes = uint64_t{1} << 20;
+constexpr uint64_t kLeastBytes = uint64_t{1} << 18;
 // Triangles of a chunk or a part are a multiple of this, which keeps every binding of rectangles aligned.
 constexpr uint32_t kTriangleAlign = 64;
 

@@ -192,15 +192,14 @@ std::vector<Band> SBuffer::bands(uint64_t bytes) const {
     uint64_t most = std::min(bytes / std::max<uint64_t>(1, bytes_per_range()), device_.limits().most_elements(16));
     most = most > 2 * kRangeAlign ? most - 2 * kRangeAlign : 1;
     const std::vector<uint64_t>& block_ranges = counted().block_ranges;
+    const uint64_t longest = block_ranges.empty() ? 0 : *std::max_element(block_ranges.begin(), block_ranges.end());
+    if (longest > most) {
+        throw BandTooLarge("the ranges of one block of tiles", "S-buffer", (longest + 2 * kRangeAlign) * bytes_per_range(),
+                           bytes, "a larger --shadow-res");
+    }
     std::vector<Band> result(1);
     for (size_t i = 0; i < block_ranges.size(); ++i) {
         Band* band = &result.back();
-        if (block_ranges[i] > most) {
-            throw Error(
-                ErrorKind::out_of_memory,
-                "the ranges of one block of tiles take " + std::to_string(block_ranges[i] * bytes_per_range()) + " bytes",
-                "S-buffer", "allow a larger --memory-budget or use a larger --shadow-res");
-        }
         if (band->range_count + block_ranges[i] > most) {
             result.push_back({band->item_first + band->item_count, 0, band->range_first + band->range_count, 0});
             band = &result.back();
@@ -245,10 +244,11 @@ void SBuffer::fill(const Band& band) {
     range_base_ = static_cast<uint32_t>(align_down(band.range_first));
     uint64_t held = band.range_first + band.range_count - range_base_;
     for (Memory& m : memory_) {
-        if (m.description.per != LayoutBuffer::Per::range) continue;
+        // Kept for smaller bands: what it takes at most is then known when all were filled once.
+        const uint64_t bytes = std::max<uint64_t>(1, held) * m.description.element_bytes;
+        if (m.description.per != LayoutBuffer::Per::range || m.buffer.bytes() >= bytes) continue;
         m.buffer = gpu::Buffer();
-        m.buffer =
-            device_.allocate("s_buffer." + m.description.block, std::max<uint64_t>(1, held) * m.description.element_bytes);
+        m.buffer = device_.allocate("s_buffer." + m.description.block, bytes);
     }
     gpu::Recorder& recorder = device_.recorder();
     for (Memory& m : memory_) {

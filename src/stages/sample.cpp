@@ -17,6 +17,10 @@ using gpu::Texel;
 // Hits whose shadow counts share one set of 32-bit counters.
 constexpr uint32_t kCountersHits = 65536;
 
+uint32_t walk_parts(uint64_t longest) {
+    return static_cast<uint32_t>(groups_of(std::max<uint64_t>(1, longest), shared::kListChunk));
+}
+
 std::vector<float> srgb_table() {
     std::vector<float> table(256);
     for (int i = 0; i < 256; ++i) {
@@ -82,12 +86,14 @@ void Sampler::trace(const Batch& batch) {
                       params, groups_of(run_count_, 64));
 }
 
+void Sampler::reserve_walk(uint64_t longest) {
+    const uint64_t bytes = walk_parts(longest) > 1 ? tracer_.hits().bytes() * 2 : 8;
+    if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
+}
+
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
-    uint32_t parts = static_cast<uint32_t>(groups_of(std::max<uint64_t>(1, light.map->longest()), shared::kListChunk));
-    if (parts > 1 || !iterators_) {
-        uint64_t bytes = parts > 1 ? tracer_.hits().bytes() * 2 : 8;
-        if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
-    }
+    const uint32_t parts = walk_parts(light.map->longest());
+    reserve_walk(light.map->longest());
     const uint64_t slots = settings_.most_slots;
     std::vector<gpu::Binding> all = {{"queue", &queue_, Texel::r32_uint},
                                      {"runs", &runs_, Texel::r32_uint},

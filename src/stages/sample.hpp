@@ -43,6 +43,8 @@ public:
     void begin_window();
     /// Forget the batch before: find the nearest triangle of each sample, then queue those that hit.
     void trace(const Batch& batch);
+    /// Memory for tests that walk lists of so many elements, a part at a time.
+    void reserve_walk(uint64_t longest);
     /// Test the queue against a band of a light's S-buffer that is filled now.
     void test_shadows(const LightSide& light, const Band& band, float tolerance);
     /// Add the batch to the film.

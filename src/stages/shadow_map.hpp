@@ -2,6 +2,7 @@
 // What the shadow tests of one light read, by whatever method.
 #pragma once
 
+#include <gnomon/error.hpp>
 #include <map>
 #include <string>
 #include <vector>
@@ -26,6 +27,25 @@ struct ItemOrder {
     bool cell_major = false;
 };
 
+/// Not even the least band fits into what there is of memory.
+class BandTooLarge : public Error {
+public:
+    /// what: takes `needed` bytes of the `available`. other_way: what else helps.
+    BandTooLarge(const std::string& what, const std::string& where, uint64_t needed_bytes, uint64_t available_bytes,
+                 std::string other_way)
+        : Error(ErrorKind::out_of_memory, what + " take " + std::to_string(needed_bytes) + " bytes", where, ""),
+          needed(needed_bytes),
+          available(available_bytes),
+          other(std::move(other_way)) {}
+
+    /// Of one that had a share of what is available.
+    BandTooLarge(const BandTooLarge& part, uint64_t share)
+        : Error(part), needed(part.needed * share), available(part.available * share), other(part.other) {}
+
+    uint64_t needed, available;
+    std::string other;
+};
+
 /// Of one window of a light's view.
 class ShadowMap {
 public:
@@ -39,8 +59,7 @@ public:
     /// Most elements that one test walks.
     virtual uint64_t longest() const { return 1; }
 
-    /// Bands that take at most `bytes` each; one, if all of it does. Errors: ErrorKind::out_of_memory, saying how much is
-    /// needed.
+    /// Bands that take at most `bytes` each; one, if all of it does. Errors: BandTooLarge.
     virtual std::vector<Band> bands(uint64_t bytes) const = 0;
     /// For the report: what there is of it, and how it was made.
     virtual std::map<std::string, uint64_t> counts() const { return {}; }

@@ -140,27 +140,54 @@ TEST(Budget, HoldsForManyLights) {
         EXPECT_EQ(frame.stats.counts.at(count), whole.stats.counts.at(count)) << count;
 }
 
-// What is refused says what would do, before any work; and that does.
-TEST(Budget, TheLeastThatIsNamedIsEnough) {
-    const PosedScene posed = load_posed(made_file("figure_20000", [](const auto& path) {
-        makers::make_figure(path, {20000, true});
-    }));
-    RenderSettings settings = small_settings(64, 48, 4, 256);
-    const Frame whole = shared_renderer().render(posed.scene, posed.poses, settings);
-    settings.memory_budget = 1u << 20;
-    std::string message;
+/// Bytes of the budget that a refusal names; 0 where it names none.
+uint64_t named_budget(const std::string& message) {
+    const std::string before = "use --memory-budget ";
+    const size_t at = message.find(before);
+    return at == std::string::npos ? 0 : std::stoull(message.substr(at + before.size())) << 20;
+}
+
+/// The budget that the refusal names; 0 where the picture is that of the hash.
+uint64_t refused(const PosedScene& posed, const RenderSettings& settings, uint64_t expected) {
     try {
-        shared_renderer().render(posed.scene, posed.poses, settings);
+        const Frame frame = shared_renderer().render(posed.scene, posed.poses, settings);
+        EXPECT_EQ(hash_of(frame), expected) << settings.memory_budget;
+        EXPECT_LE(frame.stats.peak_bytes, settings.memory_budget);
+        return 0;
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::out_of_memory);
-        message = error.what();
+        const uint64_t named = named_budget(error.what());
+        EXPECT_GT(named, settings.memory_budget) << error.what();
+        return named;
     }
-    const std::string before = "use --memory-budget ";
-    ASSERT_THAT(message, testing::HasSubstr(before));
-    settings.memory_budget = std::stoull(message.substr(message.find(before) + before.size())) << 20;
-    const Frame frame = shared_renderer().render(posed.scene, posed.poses, settings);
-    EXPECT_EQ(hash_of(frame), hash_of(whole));
-    EXPECT_LE(frame.stats.peak_bytes, settings.memory_budget);
+}
+
+// What is refused says what would do, and that does: of a scene whose own data is too much, and of ranges and layers so dense
+// that not even a tile's have room beside them.
+TEST(Budget, WhatIsNamedIsEnough) {
+    const PosedScene posed = load_posed(made_file("figure_40000", [](const auto& path) {
+        makers::make_figure(path, {40000, true});
+    }));
+    RenderSettings settings = small_settings(64, 48, 4, 64);
+    int refusals = 0;
+    for (const char* method : {"exact", "dtr", "temporal", "tsm", "fssm"}) {
+        settings.method = method;
+        settings.memory_budget = 0;
+        const uint64_t expected = hash_of(shared_renderer().render(posed.scene, posed.poses, settings));
+        settings.memory_budget = 1u << 20;
+        const uint64_t least = refused(posed, settings, expected);
+        for (const double times : {1.0, 1.05, 1.2, 1.5, 2.0, 3.0}) {
+            SCOPED_TRACE(method + std::string(" at ") + std::to_string(times));
+            settings.memory_budget = static_cast<uint64_t>(static_cast<double>(least) * times);
+            const uint64_t named = refused(posed, settings, expected);
+            if (named == 0) continue;
+            ++refusals;
+            settings.memory_budget = named;
+            EXPECT_EQ(refused(posed, settings, expected), 0u);
+        }
+    }
+    std::cout << refusals << " refusals" << std::endl;
+    EXPECT_GT(refusals, 1);
 }
 
 // Offsets of all lists of a view, in several cells of time, may take more than one binding holds.
