@@ -8,6 +8,8 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kPass = 0u;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const bool kCullBackFaces = false;  // Leave out what the light sees from behind at both ends.
+layout(constant_id = 3) const bool kAsked = false;
+READ_UVEC4(15, pages)
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
@@ -15,6 +17,7 @@ READ_VEC4(3, raster_vertices)
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
+#include "common/page.glsl"
 #include "common/ticket.glsl"
 
 void visit(uint list, uint triangle, PrismFragments fragments);
@@ -37,19 +40,15 @@ void visit_texels(uint number) {
     bool inside = number < params.item_count;
     uint item = params.item_first + min(number, params.item_count - 1u);
     ViewGrid grid = params.grid;
-    uint window_tile = item / grid.cell_count;
-    uint tile = grid.tile_first + window_tile;
-    uint cell = item - window_tile * grid.cell_count;
-    uint tile_y = tile / grid.tiles_x;
-    uint tile_x = tile - tile_y * grid.tiles_x;
-    vec2 centre = tile_centre(grid, tile_x, tile_y);
-    uvec2 most = min(uvec2(grid.width, grid.height) - uvec2(tile_x, tile_y) * kTileSize, uvec2(kTileSize)) - 1u;
-    uint key_first = segment_of_cell(grid, cell) * grid.vertex_stride;
-    vec2 span = cell_span(grid, cell);
+    Page page = fetch_page(item);
+    vec2 centre = tile_centre(grid, page.tile_x, page.tile_y);
+    uvec2 most = min(uvec2(grid.width, grid.height) - uvec2(page.tile_x, page.tile_y) * kTileSize, uvec2(kTileSize)) - 1u;
+    uint key_first = segment_of_cell(grid, page.cell) * grid.vertex_stride;
+    vec2 span = cell_span(grid, page.cell);
     uint list_first = (item - params.item_first) * kTileTexels;
 
-    uint k = fetch_bin_offsets(item) + params.list_first;
-    uint end = inside ? min(fetch_bin_offsets(item + 1u), k + kListChunk) : 0u;
+    uint k = page.begin + params.list_first;
+    uint end = inside ? min(page.end, k + kListChunk) : 0u;
     uint lane = gl_LocalInvocationID.x & 7u;
     while (k < end) {
         uint left = end - k;

@@ -13,14 +13,17 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kOrthographic = false;
+layout(constant_id = 2) const bool kAsked = false;
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
+READ_UVEC4(15, pages)
 layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
+#include "common/page.glsl"
 #include "common/ticket.glsl"
 #include "common/range_count.glsl"
 uint range_base() { return params.range_first; }
@@ -33,13 +36,10 @@ void main() {
     uint item = params.item_first + min(number, params.item_count - 1u);
     uint texel = gl_LocalInvocationID.x;
     ViewGrid grid = params.grid;
-    uint window_tile = item / grid.cell_count;
-    uint tile = grid.tile_first + window_tile;
-    uint cell = item - window_tile * grid.cell_count;
-    uint tile_y = tile / grid.tiles_x;
-    uint tile_x = tile - tile_y * grid.tiles_x;
-    uint column = tile_x * kTileSize + (texel & 7u);
-    uint row = tile_y * kTileSize + (texel >> 3u);
+    Page page = fetch_page(item);
+    uint cell = page.cell;
+    uint column = page.tile_x * kTileSize + (texel & 7u);
+    uint row = page.tile_y * kTileSize + (texel >> 3u);
     bool inside = number < params.item_count && column < grid.width && row < grid.height;
     float x = float(column) + 0.5 - 0.5 * float(grid.width);
     float y = float(row) + 0.5 - 0.5 * float(grid.height);
@@ -48,8 +48,8 @@ void main() {
     float cell_start = float(cell);
     float per_cell = 1.0 / float(grid.cell_count);
 
-    uint k = fetch_bin_offsets(item) + params.list_first;
-    uint end = min(fetch_bin_offsets(item + 1u), k + kListChunk);
+    uint k = page.begin + params.list_first;
+    uint end = min(page.end, k + kListChunk);
     uint list = (item - params.item_first) * kTileTexels + texel;
     uint count = 0u;
 #ifdef LAYOUT_CURSOR
@@ -62,7 +62,7 @@ void main() {
         PointPrism prism = point_prism(c, x, y);
         Stays stays = stays_over(prism);
         [[unroll]] for (uint j = 0u; j < 4u; ++j) {
-            bool stay = inside && stays.enter[j] < stays.leave[j];
+            bool stay = inside && stays.enter[j] < stays.leave[j] && (entry & ~kReversed) != page.receiver;
             float enter_depth = metres_at(prism, c, stays.enter[j], kOrthographic);
             float exit_depth = metres_at(prism, c, stays.leave[j], kOrthographic);
             stay = stay && (kOrthographic || enter_depth > 0.0 || exit_depth > 0.0);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: the ranges of each texel, conservative: every time at which a triangle may cover any point of the texel lies in its range, and its nearest depth is not
 //          behind the triangle anywhere. Count, or fill after the layout's own preparation.
-// Reads:   bin_offsets, bin_entries, triangles, raster_vertices
+// Reads:   bin_offsets, bin_entries, triangles, raster_vertices, pages
 // Writes:  RasterCounts (ranges, 64 bits per kCountBlock items), and what the layout says
 // Grid:    8 invocations per tile and cell: one per column of texels, the counts of its 8 rows in registers; they prepare the list's prisms for each other
 // Source:  math/texel_range.h
@@ -14,14 +14,17 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const uint kCrew = 8u;
+layout(constant_id = 3) const bool kAsked = false;
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
+READ_UVEC4(15, pages)
 layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
+#include "common/page.glsl"
 #include "common/ticket.glsl"
 #include "common/range_count.glsl"
 #include "common/crew.glsl"
@@ -42,12 +45,9 @@ void main() {
     ViewGrid grid = params.grid;
     bool inside = item < params.item_first + params.item_count;
     item = min(item, params.item_first + params.item_count - 1u);
-    uint window_tile = item / grid.cell_count;
-    uint tile = grid.tile_first + window_tile;
-    uint cell = item - window_tile * grid.cell_count;
-    uint tile_y = tile / grid.tiles_x;
-    uint tile_x = tile - tile_y * grid.tiles_x;
-    vec2 centre = tile_centre(grid, tile_x, tile_y);
+    Page page = fetch_page(item);
+    uint cell = page.cell;
+    vec2 centre = tile_centre(grid, page.tile_x, page.tile_y);
     float x = float(lane) - 3.5;
     float extent = grid_extent(grid);
     uint key_first = segment_of_cell(grid, cell) * grid.vertex_stride;
@@ -56,15 +56,15 @@ void main() {
     float cell_start = float(cell);
     float per_cell = 1.0 / float(grid.cell_count);
 
-    uint begin = fetch_bin_offsets(item) + params.list_first;
-    uint end = max(fetch_bin_offsets(item + 1u), begin);
+    uint begin = page.begin + params.list_first;
+    uint end = max(page.end, begin);
     uint entries = inside ? min(end - begin, kListChunk) : 0u;
     uint rounds = rounds_of(entries);
 
     // Lists of this column's texels, counted from the dispatch's first; texels outside the image get no ranges.
     uint list_first = (item - params.item_first) * kTileTexels + lane;
     const uint list_step = kTileSize;
-    uint rows = inside && tile_x * kTileSize + lane < grid.width ? min(grid.height - tile_y * kTileSize, kTileSize) : 0u;
+    uint rows = inside && page.tile_x * kTileSize + lane < grid.width ? min(grid.height - page.tile_y * kTileSize, kTileSize) : 0u;
 
     uint count[8];
     [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] = 0u;
@@ -91,7 +91,7 @@ void main() {
             ColumnBounds column = column_bounds(shown(own_bounds, source), x);
             uint row = subgroupShuffle(own_rows.x, source);
             uint last_row = subgroupShuffle(own_rows.y, source);
-            bool listed = k + from < entries;
+            bool listed = k + from < entries && nearest < page.limit && (entry & ~kReversed) != page.receiver;
             while (listed && row <= last_row) {
                 vec3 times = texel_times(column, float(row) - 3.5);
                 bool hit = touches_texel(times, slack) && row < rows;

@@ -10,7 +10,7 @@
 layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 #include "common/prism_texels.glsl"
 
-layout(constant_id = 3) const bool kCoverage = false;
+layout(constant_id = 4) const bool kCoverage = false;
 READ_UINT(6, coverage)
 layout(binding = 16, scalar) buffer FragmentHeads { uint fragment_heads[]; };
 layout(binding = 17, scalar) writeonly buffer Fragments { uvec4 fragments[]; };

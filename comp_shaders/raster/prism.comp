@@ -14,6 +14,8 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kResume = false;  // Lists are walked in parts.
+layout(constant_id = 2) const bool kAsked = false;
+READ_UVEC4(15, pages)
 READ_UINT(0, fragment_heads)
 READ_UVEC4(1, fragments)
 layout(binding = 2, scalar) buffer PairCounts { uvec2 pair_counts[]; };
@@ -34,7 +36,8 @@ void main() {
     uint item = params.item_first + number;
     uint list = number * kTileTexels + gl_LocalInvocationID.x;
     ViewGrid grid = params.grid;
-    float cell_start = float(item - item / grid.cell_count * grid.cell_count);
+    uint window_item = kAsked ? fetch_pages(item).x : item;
+    float cell_start = float(window_item - window_item / grid.cell_count * grid.cell_count);
     float per_cell = 1.0 / float(grid.cell_count);
 
     // Fragments of the prism at hand, by depth; equally deep ones by time.

@@ -110,9 +110,13 @@ struct ScanParams {
     uint run_count;
 };
 
+struct PageParams {
+    uint item_count;
+};
+
 struct RasterParams {
     ViewGrid grid;
-    uint item_count;  // Items (a tile of the window in a cell: tile * cell_count + cell) of this dispatch.
+    uint item_count;  // Items (a tile of the window in a cell: tile * cell_count + cell), or pages, of this dispatch.
     uint item_first;
     uint list_first;      // Walk entries [list_first, list_first + kListChunk) of each list.
     uint range_first;     // The number of the first range in the bound memory.
@@ -211,7 +215,7 @@ struct ShadowParams {
     float cone_tan2;   // Squared tangent of a spot's outer half angle.
     float tolerance;   // The least metres along a hit's normal within which nothing occludes.
     float depth_near;  // Occluders are deeper than this.
-    uint item_first;   // Items of the window whose ranges are in memory.
+    uint item_first;   // Items of the window, or pages, whose ranges are in memory.
     uint item_count;
     uint range_first;  // The number of the first range in memory.
     uint part;         // How many times kListChunk ranges of each list were walked before.

@@ -23,6 +23,7 @@ struct RenderSettings {
     std::string layout = "auto";  ///< A registered layout, a folder that holds one, or auto: what the method is made for.
     std::string raster =
         "auto";  ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
+    std::string pages = "asked";  ///< Of an S-buffer are made: all its pages, or those that are asked for.
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
     uint64_t memory_budget = 0;      ///< Most bytes of device memory; 0: half the device's heap.

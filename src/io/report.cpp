@@ -17,7 +17,7 @@ Json settings_json(const RenderSettings& settings) {
         {"spp", settings.spp},       {"seed", settings.seed},
         {"camera", settings.camera}, {"shadow_res", settings.shadow_res},
         {"method", settings.method}, {"layout", settings.layout},
-        {"raster", settings.raster}, {"memory_budget", settings.memory_budget},
+        {"raster", settings.raster}, {"pages", settings.pages}, {"memory_budget", settings.memory_budget},
     };
     for (const auto& [name, value] : settings.parameters) {
         std::string key = name;

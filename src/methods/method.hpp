@@ -11,7 +11,7 @@
 
 #include "layouts/layout.hpp"
 #include "pipeline/view.hpp"
-#include "stages/bin.hpp"
+#include "stages/pages.hpp"
 #include "stages/shadow_map.hpp"
 
 namespace gnomon {
@@ -43,6 +43,7 @@ struct LightContext {
     Layout layout;       ///< Of the S-buffer, where the method has one; likewise the stage that finds its ranges.
     std::string raster;
     const View* camera = nullptr;  ///< The camera's view.
+    const Pages* asked = nullptr;  ///< The pages of the S-buffer, where not all are made.
 
     std::optional<double> parameter(const std::string& name) const;
 };

@@ -17,15 +17,16 @@ bool culls_back_faces(const LightContext& light) { return light.parameter(kCullB
 SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer* coverage) {
     const std::string shader = light.layout.stage("raster/" + light.raster);
     const bool orthographic = light.view.orthographic;
+    const RasterSource source{light.geometry, bins, light.asked};
     if (light.raster != "prism") {
-        return {light.device, light.programs, walk_bins(light.programs, light.geometry, bins, shader, orthographic),
+        return {light.device, light.programs, walk_bins(light.programs, source, shader, orthographic),
                 light.layout};
     }
     // A quarter for the fragments: what the ranges take is bounded on its own, by the bands that are filled.
     constexpr uint64_t kShare = 4;
     try {
         return {light.device, light.programs,
-                pair_fragments(light.device, light.programs, light.geometry, bins, shader,
+                pair_fragments(light.device, light.programs, source, shader,
                                {orthographic, culls_back_faces(light), coverage}, light.bytes / kShare),
                 light.layout};
     } catch (const BandTooLarge& error) {
@@ -36,7 +37,7 @@ SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer*
 class RangeMap final : public ShadowMap {
 public:
     RangeMap(const LightContext& light, const Bins& bins, bool covered)
-        : coverage_(covered ? make_coverage(light.device, light.programs, light.geometry, bins, light.view.orthographic,
+        : coverage_(covered ? make_coverage(light.device, light.programs, {light.geometry, bins, light.asked}, light.view.orthographic,
                                             culls_back_faces(light))
                             : CoverageMap()),
           ranges_(s_buffer(light, bins, covered ? &coverage_.coverage : nullptr)),

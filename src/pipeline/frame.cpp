@@ -52,6 +52,8 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const RenderSetti
     check_range("height", settings.height, 1, 16384);
     check_range("spp", settings.spp, 1, 65536);
     check_range("shadow resolution", settings.shadow_res, 1, 16384);
+    if (settings.pages != "asked" && settings.pages != "all")
+        throw Error(ErrorKind::usage, "no pages '" + settings.pages + "'", "settings", "use asked or all");
     check_range("number of poses", poses.size(), 2, 65);
     if (scene.triangles.empty())
         throw Error(ErrorKind::input, "the scene has no triangles", scene.path.string(), "add a mesh with triangles");
@@ -193,6 +195,7 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     const uint64_t light_bytes = scene.lights.empty() ? 0 : bins.raster_vertices.bytes();
     const auto left = [&] { return device.budget_left() - std::min(device.budget_left(), light_bytes); };
     const uint64_t room = left();
+    const bool asked = method.has_s_buffer() && settings.pages == "asked" && !settings.keep_texel_ranges;
     const uint64_t most_slots = batch_slots(device, view, settings.spp, method.fractional ? frame.light_count : 0, room / 4);
     Sampler sampler(device, programs, geometry, view, bins,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
@@ -201,9 +204,10 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
                      .light_count = frame.light_count,
                      .most_slots = most_slots,
                      .fractional = method.fractional,
+                     .asks = asked,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
-    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still}, scene, poses,
+    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, asked}, scene, poses,
                    bounds);
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;
@@ -221,7 +225,7 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
             stopped = progress && !progress(done / (double(tiles_across(view)) * tiles_down(view)));
             if (stopped) break;
             sampler.trace(batches[b]);
-            shadows.test_shadows(batches[b], least_tolerance(bounds));
+            shadows.test_shadows(batches[b]);
             sampler.shade(lights, !lights_still(poses));
             if (b + 1 < batches.size()) device.recorder().submit();  // So that progress is what was done.
             if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);

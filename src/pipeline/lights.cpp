@@ -16,6 +16,7 @@ constexpr uint64_t kLeastShare = 6;
 
 void release_side(LightSide& side) {
     side.map.reset();
+    side.asked.reset();
     side.bands.clear();
     side.bins = Bins();
     side.filled = kNotFilled;
@@ -24,7 +25,9 @@ void release_side(LightSide& side) {
 }  // namespace
 
 Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses, const Bounds& bounds)
-    : shared_(std::move(shared)), light_count_(static_cast<uint32_t>(scene.lights.size())) {
+    : shared_(std::move(shared)),
+      light_count_(static_cast<uint32_t>(scene.lights.size())),
+      tolerance_(least_tolerance(bounds)) {
     for (uint32_t i = 0; i < light_count_; ++i) {
         if (scene.lights[i].kind == LightKind::point) continue;
         Light& light = lights_.emplace_back();
@@ -57,6 +60,7 @@ void Lights::prepare() {
     std::optional<BandTooLarge> worst;
     for (size_t i = 0; i < lights_.size(); ++i) {
         for (size_t w = 0; w < (shared_.method.has_s_buffer() ? lights_[i].windows.size() : 1); ++w) {
+            if (shared_.asked) continue;  // The pages are known when there are hits.
             try {
                 cut_to_fit(i, w, worst.has_value());
             } catch (const BandTooLarge& error) {
@@ -81,8 +85,8 @@ void Lights::make_together() {
         }
         for (Binning& binning : binnings) binning.count();
         for (Binning& binning : binnings) binning.fill();
-        for (size_t i = 0; i < lights_.size(); ++i) map_lists(i);
-        for (size_t i = 0; i < lights_.size(); ++i) finish_map(i);
+        for (size_t i = 0; i < lights_.size() && !shared_.asked; ++i) map_lists(i);
+        for (size_t i = 0; i < lights_.size() && !shared_.asked; ++i) finish_map(i);
     } catch (const Error& error) {
         recorder.mark(marked);
         if (error.kind() != ErrorKind::out_of_memory) throw;
@@ -171,8 +175,10 @@ void Lights::finish_map(size_t light) {
     shared_.sampler.reserve_walk(side.map->longest());  // Before the bands take what is left.
     side.bands = side.map->bands(share());
     std::map<std::string, uint64_t>& counts = made.counts[side.bins.window.tile_first];
-    counts = side.map->counts();
+    if (!shared_.asked) counts.clear();
+    for (const auto& [name, count] : side.map->counts()) counts[name] += count;
     counts["bin_entries"] = side.bins.entry_count;
+    if (side.asked) counts["pages"] += side.asked->count();
     made.effective = side.map->effective();
     made.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
 }
@@ -183,12 +189,26 @@ bool Lights::fits(size_t light, size_t window) {
     if (side.map && side.bins.window == made.windows[window]) return true;
     const bool fits = with_room(light, [&] {
         project(light);
-        list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, made.windows[window], listing(), side.bins);
+        if (!side.bins.offsets || side.bins.window != made.windows[window]) {
+            list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, made.windows[window], listing(),
+                        side.bins);
+        }
+        if (shared_.asked) ask(light);
+        if (side.asked && side.asked->count() == 0) return;
         map_lists(light);
         finish_map(light);
     });
     if (!fits) release_side(side);
     return fits;
+}
+
+void Lights::ask(size_t light) {
+    LightSide& side = lights_[light].side;
+    side.asked.reset();
+    side.asked = std::make_unique<Pages>(shared_.device, shared_.programs, side.bins);
+    shared_.sampler.ask(side, tolerance_);
+    side.asked->list();
+    contexts_[light].asked = side.asked.get();
 }
 
 void Lights::cut_to_fit(size_t light, size_t window, bool only_count) {
@@ -223,7 +243,7 @@ uint32_t Lights::most_strata() const {
     return most;
 }
 
-void Lights::test_shadows(const Batch& batch, float tolerance) {
+void Lights::test_shadows(const Batch& batch) {
     const double open = static_cast<double>(batch.stratum_first) / shared_.settings.spp;
     const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / shared_.settings.spp;
     for (size_t i = 0; i < lights_.size(); ++i) {
@@ -236,8 +256,14 @@ void Lights::test_shadows(const Batch& batch, float tolerance) {
                 if (band.t_close <= open || band.t_open >= close) continue;
                 if (side.filled != b && !with_room(i, [&] { side.map->fill(band); })) std::rethrow_exception(failure_);
                 side.filled = b;
-                shared_.sampler.test_shadows(side, band, tolerance);
+                shared_.sampler.test_shadows(side, band, tolerance_);
             }
+            // The next batch asks for others.
+            if (!shared_.asked) continue;
+            side.map.reset();
+            side.asked.reset();
+            side.bands.clear();
+            side.filled = kNotFilled;
         }
     }
 }

@@ -25,6 +25,7 @@ public:
         Sampler& sampler;
         uint64_t room = 0;   ///< Bytes of the budget that were shared out.
         bool still = false;  ///< Nothing moves.
+        bool asked = false;  ///< Of S-buffers only the pages are made that a batch asks for.
     };
 
     /// Nothing is made yet. Point lights have no map.
@@ -40,7 +41,7 @@ public:
     /// once.
     uint32_t most_strata() const;
     /// Test the sampler's hits, of the batch, against every light.
-    void test_shadows(const Batch& batch, float tolerance);
+    void test_shadows(const Batch& batch);
 
     /// Write counts, by "name.light", and what was really used.
     void report(Frame& frame) const;
@@ -65,6 +66,7 @@ private:
     void cut_to_fit(size_t light, size_t window, bool only_count);  ///< Count: nothing need be filled.
     bool fits(size_t light, size_t window);                         ///< Without halving it; then it is in memory.
     void project(size_t light);
+    void ask(size_t light);
     void map_lists(size_t light);
     void finish_map(size_t light);
     bool release_others(size_t light);
@@ -77,6 +79,7 @@ private:
 
     Shared shared_;
     uint32_t light_count_;  ///< Point lights among them.
+    float tolerance_;
     std::vector<Light> lights_;
     std::vector<LightContext> contexts_;  ///< Of each light; its map refers to it.
     bool alone_ = false;                  ///< The other lights gave way to the one that is worked on.

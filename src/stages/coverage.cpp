@@ -9,9 +9,9 @@
 
 namespace gnomon {
 
-CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins,
-                          bool orthographic, bool cull_back_faces) {
-    const uint32_t items = bins.item_count();
+CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterSource& source, bool orthographic,
+                           bool cull_back_faces) {
+    const uint32_t items = source.item_count();
     const uint64_t item_bytes = uint64_t(shared::kTileTexels) * 4, bytes = items * item_bytes;
     if (uint64_t(items) * shared::kTileTexels > device.limits().most_elements(4)) {
         throw Error(ErrorKind::out_of_memory, "the coverage map of a light's view is more than the device can bind", "S-buffer",
@@ -28,16 +28,16 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometr
     const auto most = static_cast<uint32_t>(device.limits().max_storage_range / item_bytes);
     for (uint32_t first = 0; first < items; first += std::min(most, items - first)) {
         const uint32_t count = std::min(most, items - first);
-        std::vector<gpu::Binding> all = bin_bindings(geometry, bins);
+        std::vector<gpu::Binding> all = source.bindings();
         all.push_back({"Ticket", &ticket});
         all.push_back({"NearestDepths", &map.nearest_depths, {}, first * item_bytes, count * item_bytes});
         all.push_back({"NearestTriangles", &map.nearest_triangles, {}, first * item_bytes, count * item_bytes});
         all.push_back({"Coverage", &map.coverage, {}, first * item_bytes, count * item_bytes});
         for (uint32_t pass = 0; pass < 4; ++pass) {
-            for (uint32_t part = 0; part < bin_part_count(bins); ++part) {
+            for (uint32_t part = 0; part < bin_part_count(source.bins); ++part) {
                 recorder.fill("raster/coverage", ticket, 0);
-                recorder.dispatch("raster/coverage", programs.get("raster/coverage", {pass, orthographic, cull_back_faces}),
-                                  all, shared::RasterParams{bins.grid, count, first, part * shared::kListChunk, 0, 0},
+                recorder.dispatch("raster/coverage", programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}),
+                                  all, shared::RasterParams{source.bins.grid, count, first, part * shared::kListChunk, 0, 0},
                                   groups_of(count, 8));
             }
         }

@@ -3,7 +3,7 @@
 // with nothing nearer. Source: Hong and Oh 2017, Extension.
 #pragma once
 
-#include "stages/bin.hpp"
+#include "stages/raster_stage.hpp"
 
 namespace gnomon {
 
@@ -18,7 +18,7 @@ struct CoverageMap {
 };
 
 /// The bins list prisms by their bounds, in one cell per segment.
-CoverageMap make_coverage(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins,
-                          bool orthographic, bool cull_back_faces);
+CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterSource& source, bool orthographic,
+                          bool cull_back_faces);
 
 }  // namespace gnomon

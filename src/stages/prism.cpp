@@ -29,46 +29,45 @@ Layout fragment_layout() {
 
 class CollectFragments final : public RasterStage {
 public:
-    CollectFragments(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins,
-                     const PrismSettings& settings)
+    CollectFragments(gpu::Device& device, Programs& programs, const RasterSource& source, const PrismSettings& settings)
         : programs_(programs),
-          geometry_(geometry),
-          bins_(bins),
+          source_(source),
           settings_(settings),
           no_coverage_(device.allocate("unbound", 4)) {}
 
-    const shared::ViewGrid& grid() const override { return bins_.grid; }
-    uint32_t item_count() const override { return bins_.item_count(); }
+    const shared::ViewGrid& grid() const override { return source_.bins.grid; }
+    uint32_t item_count() const override { return source_.item_count(); }
     uint32_t items_per_group() const override { return 8; }
-    uint64_t longest() const override { return uint64_t(bins_.longest) * shared::kPrismTriangles; }
-    uint32_t part_count() const override { return bin_part_count(bins_); }
+    uint64_t longest() const override { return uint64_t(source_.bins.longest) * shared::kPrismTriangles; }
+    uint32_t part_count() const override { return bin_part_count(source_.bins); }
     const char* timing(bool fill) const override { return fill ? "raster/fragments" : "raster/count_fragments"; }
     const gpu::Program& program(bool fill) const override {
         return programs_.get("raster/fragments",
-                             {fill, settings_.orthographic, settings_.cull_back_faces, settings_.coverage != nullptr});
+                             {fill, settings_.orthographic, settings_.cull_back_faces, source_.asked != nullptr,
+                              settings_.coverage != nullptr});
     }
     std::vector<gpu::Binding> bindings() const override {
-        std::vector<gpu::Binding> all = bin_bindings(geometry_, bins_);
+        std::vector<gpu::Binding> all = source_.bindings();
         all.push_back({"coverage", settings_.coverage != nullptr ? settings_.coverage : &no_coverage_, Texel::r32_uint});
         return all;
     }
 
 private:
     Programs& programs_;
-    const Geometry& geometry_;
-    const Bins& bins_;
+    RasterSource source_;
     PrismSettings settings_;
     gpu::Buffer no_coverage_;
 };
 
 class PairFragments final : public RasterStage {
 public:
-    PairFragments(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins, std::string shader,
+    PairFragments(gpu::Device& device, Programs& programs, const RasterSource& source, std::string shader,
                   const PrismSettings& settings, uint64_t bytes)
         : device_(device),
           programs_(programs),
+          source_(source),
           shader_(std::move(shader)),
-          fragments_(device, programs, std::make_unique<CollectFragments>(device, programs, geometry, bins, settings),
+          fragments_(device, programs, std::make_unique<CollectFragments>(device, programs, source, settings),
                      fragment_layout()),
           portions_(fragments_.bands(bytes)) {
         const uint64_t blocks = groups_of(fragments_.item_count(), shared::kCountBlock);
@@ -84,11 +83,12 @@ public:
     uint32_t part_count() const override {
         return std::max(1u, static_cast<uint32_t>(groups_of(fragments_.longest(), shared::kPairChunk)));
     }
-    const gpu::Program& program(bool fill) const override { return programs_.get(shader_, {fill, part_count() > 1}); }
+    const gpu::Program& program(bool fill) const override { return programs_.get(shader_, {fill, part_count() > 1, source_.asked != nullptr}); }
     std::vector<gpu::Binding> bindings() const override {
         std::vector<gpu::Binding> all = fragments_.read_bindings();
         all.push_back({"PairCounts", &pair_counts_});
         all.push_back({"Resume", &resume_});
+        all.push_back(source_.pages());
         return all;
     }
     std::map<std::string, uint64_t> counts() const override {
@@ -110,6 +110,7 @@ public:
 private:
     gpu::Device& device_;
     Programs& programs_;
+    RasterSource source_;
     std::string shader_;
     SBuffer fragments_;
     std::vector<Band> portions_;
@@ -118,9 +119,9 @@ private:
 
 }  // namespace
 
-std::unique_ptr<RasterStage> pair_fragments(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins,
+std::unique_ptr<RasterStage> pair_fragments(gpu::Device& device, Programs& programs, const RasterSource& source,
                                             const std::string& shader, const PrismSettings& settings, uint64_t bytes) {
-    return std::make_unique<PairFragments>(device, programs, geometry, bins, shader, settings, bytes);
+    return std::make_unique<PairFragments>(device, programs, source, shader, settings, bytes);
 }
 
 }  // namespace gnomon

@@ -15,7 +15,7 @@ struct PrismSettings {
 
 /// raster/prism, compiled for a layout. The bins list prisms by their bounds, in one cell per segment. Fragments take at most
 /// `bytes` at one time. Errors: ErrorKind::out_of_memory, where those of a block of items alone take more.
-std::unique_ptr<RasterStage> pair_fragments(gpu::Device& device, Programs& programs, const Geometry& geometry, const Bins& bins,
+std::unique_ptr<RasterStage> pair_fragments(gpu::Device& device, Programs& programs, const RasterSource& source,
                                             const std::string& shader, const PrismSettings& settings, uint64_t bytes);
 
 }  // namespace gnomon

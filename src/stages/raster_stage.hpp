@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "stages/bin.hpp"
+#include "stages/pages.hpp"
 #include "stages/shadow_map.hpp"
 
 namespace gnomon {
@@ -34,12 +34,21 @@ public:
     virtual uint32_t fragment_base() const { return 0; }  ///< RasterParams::fragment_first.
 };
 
-/// raster/conservative or raster/analytic, which walk the bins, compiled for a layout: "raster/analytic@array".
-std::unique_ptr<RasterStage> walk_bins(Programs& programs, const Geometry& geometry, const Bins& bins,
-                                       const std::string& shader, bool orthographic);
+/// What a raster stage walks: the lists of all items of the bins' window, or of the pages that were asked for.
+struct RasterSource {
+    const Geometry& geometry;
+    const Bins& bins;
+    const Pages* asked = nullptr;
 
-/// What every stage that walks the bins binds.
-std::vector<gpu::Binding> bin_bindings(const Geometry& geometry, const Bins& bins);
+    uint32_t item_count() const { return asked != nullptr ? asked->count() : bins.item_count(); }
+    /// What every stage binds that walks the lists.
+    std::vector<gpu::Binding> bindings() const;
+    gpu::Binding pages() const;
+};
+
+/// raster/conservative or raster/analytic, compiled for a layout: "raster/analytic@array".
+std::unique_ptr<RasterStage> walk_bins(Programs& programs, const RasterSource& source, const std::string& shader,
+                                       bool orthographic);
 
 /// Dispatches that walk the longest list, kListChunk entries each.
 uint32_t bin_part_count(const Bins& bins);

@@ -49,6 +49,8 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     shadow_groups_ = device.allocate("shadow_groups", 12);
     hit_total_ = gpu::upload_new(device, "hit_total", std::vector<uint32_t>(2));
     ticket_ = device.allocate("ticket", 4);
+    asked_ = device.allocate("asked", settings.asks ? most_slots * sizeof(glm::vec4) : sizeof(glm::vec4));
+    asked_items_ = device.allocate("asked_items", settings.asks ? most_slots * 4 : 4);
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
@@ -91,68 +93,94 @@ void Sampler::reserve_walk(uint64_t longest) {
     if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
 }
 
+std::vector<gpu::Binding> Sampler::hit_bindings(const LightSide& light) const {
+    return {{"queue", &queue_, Texel::r32_uint},
+            {"runs", &runs_, Texel::r32_uint},
+            {"hits", &tracer_.hits(), Texel::r32_uint},
+            {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
+            {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+            {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
+            {"positions", &geometry_.positions, Texel::rgba32_float},
+            {"Ticket", &ticket_}};
+}
+
+shared::ShadowParams Sampler::shadow_params(const LightSide& light, const ItemOrder& order, const Band& band,
+                                            float tolerance) const {
+    return {bins_.grid,
+            run_count_,
+            batch_.tile_first,
+            batch_.stratum_first,
+            batch_.stratum_count,
+            settings_.spp,
+            shared::stratum_length(settings_.spp),
+            settings_.seed,
+            light.light_ix,
+            light.view.width,
+            light.view.height,
+            order.cell_count,
+            light.bins.window.tile_first,
+            light.bins.window.tile_count,
+            order.cell_major,
+            shared::stratum_length(order.cell_count),
+            light.view.scale_x,
+            light.view.scale_y,
+            light.view.cone_tan2,
+            tolerance,
+            light.view.depth_near,
+            band.item_first,
+            band.item_count,
+            0,
+            0};
+}
+
+// Of the indirect dispatches over the queue. Rows are of equal length: up to one more in each.
+uint64_t Sampler::most_groups() const {
+    const uint64_t hit_groups = groups_of(batch_.slot_count(), 64);
+    return hit_groups + groups_of(hit_groups, shared::kShadowRow);
+}
+
+void Sampler::ask(const LightSide& light, float tolerance) {
+    std::vector<gpu::Binding> all = hit_bindings(light);
+    all.insert(all.end(), {{"Asked", &asked_}, {"AskedItems", &asked_items_}, {"Receivers", &light.asked->receivers()}});
+    gpu::Recorder& recorder = device_.recorder();
+    recorder.fill("sample/ask", ticket_, 0);
+    recorder.dispatch_indirect(
+        "sample/ask", programs_.get("sample/ask", {light.view.orthographic, view_.orthographic, tracer_.straddle()}), all,
+        shadow_params(light, {light.bins.grid.cell_count}, {0, light.bins.item_count()}, tolerance), shadow_groups_, 0,
+        most_groups());
+}
+
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
     const uint32_t parts = walk_parts(light.map->longest());
     reserve_walk(light.map->longest());
     const uint64_t slots = settings_.most_slots;
-    std::vector<gpu::Binding> all = {{"queue", &queue_, Texel::r32_uint},
-                                     {"runs", &runs_, Texel::r32_uint},
-                                     {"hits", &tracer_.hits(), Texel::r32_uint},
-                                     {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
-                                     {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                     {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
-                                     {"positions", &geometry_.positions, Texel::rgba32_float},
-                                     {"Lit", &lit_, {}, settings_.fractional ? light.light_ix * slots * 4 : 0, slots * 4},
-                                     {"ShadowCounts", &shadow_counts_},
-                                     {"Ticket", &ticket_},
-                                     {"Iterators", &iterators_}};
+    std::vector<gpu::Binding> all = hit_bindings(light);
+    all.insert(all.end(), {{"Lit", &lit_, {}, settings_.fractional ? light.light_ix * slots * 4 : 0, slots * 4},
+                           {"ShadowCounts", &shadow_counts_},
+                           {"Iterators", &iterators_},
+                           {"asked", &asked_, Texel::rgba32_float},
+                           {"asked_items", &asked_items_, Texel::r32_uint},
+                           {"page_of", light.asked ? &light.asked->page_of() : &asked_items_, Texel::r32_uint}});
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
     // The first pass over the queue writes every hit's word, later ones clear bits in it.
     const Window& window = light.bins.window;
     const bool whole =
         window.tile_count == tiles_across(light.view) * tiles_down(light.view) && band.item_count == light.map->item_count();
     const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole;
-    const ItemOrder order = light.map->order();
     gpu::Recorder& recorder = device_.recorder();
     if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
     lit_written_ = true;
     recorder.fill("sample/shadow", shadow_counts_, 0);
-    std::vector<uint32_t> constants = {light.view.orthographic, view_.orthographic, tracer_.straddle(),
-                                       settings_.count_ranges,  parts > 1,          first};
+    std::vector<uint32_t> constants = {light.view.orthographic, view_.orthographic, tracer_.straddle(),    settings_.count_ranges,
+                                       parts > 1,               first,              light.asked != nullptr};
     const std::vector<uint32_t> own = light.map->test_constants();
     constants.insert(constants.end(), own.begin(), own.end());
-    // Rows are of equal length: up to one more in each.
-    const uint64_t hit_groups = groups_of(batch_.slot_count(), 64);
-    const uint64_t most_groups = hit_groups + groups_of(hit_groups, shared::kShadowRow);
-    for (uint32_t part = 0; part < parts; ++part) {
-        shared::ShadowParams params{bins_.grid,
-                                    run_count_,
-                                    batch_.tile_first,
-                                    batch_.stratum_first,
-                                    batch_.stratum_count,
-                                    settings_.spp,
-                                    shared::stratum_length(settings_.spp),
-                                    settings_.seed,
-                                    light.light_ix,
-                                    light.view.width,
-                                    light.view.height,
-                                    order.cell_count,
-                                    window.tile_first,
-                                    window.tile_count,
-                                    order.cell_major,
-                                    shared::stratum_length(order.cell_count),
-                                    light.view.scale_x,
-                                    light.view.scale_y,
-                                    light.view.cone_tan2,
-                                    tolerance,
-                                    light.view.depth_near,
-                                    band.item_first,
-                                    band.item_count,
-                                    light.map->range_base(),
-                                    part};
+    shared::ShadowParams params = shadow_params(light, light.map->order(), band, tolerance);
+    params.range_first = light.map->range_base();
+    for (params.part = 0; params.part < parts; ++params.part) {
         recorder.fill("sample/shadow", ticket_, 0);
         recorder.dispatch_indirect("sample/shadow", programs_.get(settings_.shadow_stage, constants), all, params,
-                                   shadow_groups_, 0, most_groups);
+                                   shadow_groups_, 0, most_groups());
     }
     if (!settings_.count_ranges) return;
     const uint64_t blocks = groups_of(batch_.slot_count(), kCountersHits);

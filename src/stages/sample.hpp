@@ -12,6 +12,7 @@ struct LightSide {
     uint32_t light_ix = 0;
     View view;
     Bins bins;
+    std::unique_ptr<Pages> asked;  ///< The pages that the map holds, where it does not hold all items.
     std::unique_ptr<ShadowMap> map;
     std::vector<Band> bands;
     size_t filled = ~size_t(0);  ///< Which band is.
@@ -30,6 +31,7 @@ struct SamplerSettings {
     uint32_t light_count = 0;
     uint64_t most_slots = 0;    ///< Of a batch.
     bool fractional = false;    ///< Visibility is a share, not a bit.
+    bool asks = false;          ///< Hits ask for pages.
     bool keep_depths = false;   ///< Each sample's depth, for batch_depths().
     bool count_ranges = false;  ///< Fill shadow_counts().
 };
@@ -45,6 +47,8 @@ public:
     void trace(const Batch& batch);
     /// Memory for tests that walk lists of so many elements, a part at a time.
     void reserve_walk(uint64_t longest);
+    /// Ask for the pages of the light's window that the queue needs.
+    void ask(const LightSide& light, float tolerance);
     /// Test the queue against a band of a light's S-buffer that is filled now.
     void test_shadows(const LightSide& light, const Band& band, float tolerance);
     /// Add the batch to the film.
@@ -62,6 +66,10 @@ public:
     std::vector<float> batch_depths() const;
 
 private:
+    /// What every stage binds that finds a hit in the light's view.
+    std::vector<gpu::Binding> hit_bindings(const LightSide& light) const;
+    shared::ShadowParams shadow_params(const LightSide& light, const ItemOrder& order, const Band& band, float tolerance) const;
+    uint64_t most_groups() const;
     uint32_t all_lit() const;  ///< A word of lit_ where nothing shadows.
 
     gpu::Device& device_;
@@ -77,7 +85,7 @@ private:
     uint32_t run_count_ = 0;
     ShadowCounts counts_;
     gpu::Buffer lit_, queue_, run_hits_, runs_, shadow_groups_, hit_total_, ticket_, film_, depth_values_, shadow_counts_,
-        iterators_, srgb_to_linear_;
+        iterators_, asked_, asked_items_, srgb_to_linear_;
 };
 
 }  // namespace gnomon

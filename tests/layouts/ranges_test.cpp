@@ -34,7 +34,7 @@ protected:
         const Layout found = with_ranges(find_layout(layout), false);
         return SBuffer(
             device(), programs(),
-            walk_bins(programs(), light.geometry, light.bins, found.stage("raster/conservative"), light.soup.orthographic),
+            walk_bins(programs(), {light.geometry, light.bins}, found.stage("raster/conservative"), light.soup.orthographic),
             found);
     }
 

@@ -46,7 +46,7 @@ protected:
             const Layout layout = with_ranges(find_layout(setup.layout), false);
             auto s_buffer = std::make_unique<SBuffer>(
                 device(), programs(),
-                walk_bins(programs(), geometry, side.bins, layout.stage("raster/conservative"), side.view.orthographic),
+                walk_bins(programs(), {geometry, side.bins}, layout.stage("raster/conservative"), side.view.orthographic),
                 layout);
             side.bands =
                 s_buffer->bands(setup.band_share == 1 ? 1ull << 40 : s_buffer->range_count() * 24 / setup.band_share + 16384);

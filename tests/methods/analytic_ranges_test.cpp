@@ -22,7 +22,7 @@ protected:
         const Bins bins = bin_prisms(device(), programs(), geometry, soup.view(), soup.segments());
         const Layout layout = with_ranges(find_layout("array"), true);
         SBuffer s_buffer(device(), programs(),
-                         walk_bins(programs(), geometry, bins, layout.stage("raster/analytic"), soup.orthographic), layout);
+                         walk_bins(programs(), {geometry, bins}, layout.stage("raster/analytic"), soup.orthographic), layout);
         const std::vector<Band> bands = s_buffer.bands(1ull << 40);
         EXPECT_EQ(bands.size(), 1u);
         s_buffer.fill(bands[0]);

@@ -17,7 +17,7 @@ protected:
     std::vector<uint32_t> coverage_of(const Soup& soup) {
         const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
         const Bins bins = bin_prisms(device(), programs(), geometry, soup.view(), soup.segments(), Listing::bounds);
-        const CoverageMap map = make_coverage(device(), programs(), geometry, bins, soup.orthographic, false);
+        const CoverageMap map = make_coverage(device(), programs(), {geometry, bins}, soup.orthographic, false);
         const auto found = gpu::download_vector<uint32_t>(device(), map.coverage, map.coverage.bytes() / 4);
         EXPECT_EQ(map.covered, found.size() - static_cast<uint64_t>(std::count(found.begin(), found.end(), shared::kNone)));
         return found;

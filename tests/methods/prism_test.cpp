@@ -168,7 +168,7 @@ TEST_F(PrismRangesTest, AreTheFragmentsOfATexelTwoAndTwo) {
             const Bins bins = bin_prisms(device(), programs(), geometry, soup.view(), soup.segments(), Listing::bounds);
             const Layout layout = with_ranges(find_layout("array"), true);
             SBuffer s_buffer(device(), programs(),
-                             pair_fragments(device(), programs(), geometry, bins, layout.stage("raster/prism"),
+                             pair_fragments(device(), programs(), {geometry, bins}, layout.stage("raster/prism"),
                                             {.orthographic = orthographic}, 1ull << 40),
                              layout);
             s_buffer.fill(s_buffer.bands(1ull << 40).at(0));
@@ -226,7 +226,7 @@ TEST_F(PrismRangesTest, AreTheFragmentsOfATexelTwoAndTwo) {
 
             // A block of items at a time: the same ranges.
             SBuffer cut(device(), programs(),
-                        pair_fragments(device(), programs(), geometry, bins, layout.stage("raster/prism"),
+                        pair_fragments(device(), programs(), {geometry, bins}, layout.stage("raster/prism"),
                                        {.orthographic = orthographic}, 16 * fragments + 4096),
                         layout);
             EXPECT_EQ(cut.counts(), counts);

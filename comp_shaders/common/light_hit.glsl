@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// A hit of the queue as a light's view holds it: what the shadow tests of all methods begin with. It is found again from its sample.
+#include "common/stage.glsl"
+#include "math/range.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kOrthographic = false;        // The light's view.
+layout(constant_id = 1) const bool kCameraOrthographic = false;
+layout(constant_id = 2) const bool kStraddle = false;            // As in sample/trace.
+READ_UINT(0, queue)
+READ_UINT(1, hits)
+READ_UVEC4(2, triangles)
+READ_VEC4(3, raster_vertices)
+READ_VEC4(4, light_vertices)
+READ_VEC4(8, positions)
+layout(binding = 9, scalar) buffer Ticket { uint ticket; };
+READ_UINT(11, runs)
+layout(push_constant, scalar) uniform Push { ShadowParams params; };
+#include "common/ticket.glsl"
+#include "common/triangle.glsl"
+#include "common/batch.glsl"
+#include "common/receiver.glsl"
+
+vec4 light_vertex_at(uint vertex, Receiver h) {
+    uint i = h.segment * params.camera.vertex_stride + vertex;
+    vec4 a = fetch_light_vertices(i);
+    vec4 b = fetch_light_vertices(i + params.camera.vertex_stride);
+    return vertex_at(a, b - a, h.local_time);
+}
+
+// Metres along the hit's normal within which nothing occludes: 2^-20 of its largest coordinate, but no less than the light space's own rounding.
+float occlusion_tolerance(Receiver h) {
+    uint key = h.segment * params.camera.vertex_stride;
+    uint next = key + params.camera.vertex_stride;
+    vec3 p = vec3(0.0);
+    [[unroll]] for (int k = 0; k < 3; ++k) {
+        p += h.barycentrics[k] * mix(fetch_positions(key + h.vertex[k]).xyz, fetch_positions(next + h.vertex[k]).xyz, h.local_time);
+    }
+    return max(max_of(abs(p.x), abs(p.y), abs(p.z)) * (1.0 / 1048576.0), params.tolerance);
+}
+
+// Of the queue.
+uint hit_count() { return fetch_runs(params.run_count); }
+
+// The hit of the queue that this invocation tests; there is none from hit_count on.
+uint take_hit() { return take_ticket() * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
+
+// A hit as the light's view holds it.
+struct ShadowTest {
+    uint slot;
+    uint own;           // The hit's triangle, which does not occlude it.
+    Receiver receiver;
+    vec2 at;            // Raster space of the light's view.
+    uvec2 texel;
+    float depth;        // In the light's view, z / w.
+    float limit;        // Depth from which on nothing occludes: the hit's, less the tolerance along its normal.
+    uint item;          // Its tile of the window and cell of time.
+    uint list;          // Of its texel and cell of time.
+    bool here;          // There is such a hit, the light may reach it, and its list is in memory.
+};
+
+uvec2 texel_at(vec2 at) {
+    return uvec2(clamp(floor(at.x + 0.5 * float(params.light_width)), 0.0, float(params.light_width - 1u)),
+                 clamp(floor(at.y + 0.5 * float(params.light_height)), 0.0, float(params.light_height - 1u)));
+}
+
+bool in_memory(uint item) { return item >= params.item_first && item < params.item_first + params.item_count; }
+
+uint list_of(uint item, uvec2 texel) { return item * kTileTexels + (texel.y & 7u) * kTileSize + (texel.x & 7u); }
+
+// Hit `i` of the queue.
+ShadowTest find_hit(uint i) {
+    ShadowTest test;
+    bool inside = i < hit_count();
+    test.slot = fetch_queue(inside ? i : 0u);
+    test.own = fetch_hits(test.slot) & ~kReversed;
+    Slot s = unpack_slot(test.slot, params.stratum_count);
+    uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
+    uint stratum = params.stratum_first + s.stratum;
+    vec3 point = view_sample(false, pixel.x, pixel.y, stratum, params.stratum_length, params.seed);
+    Receiver h = fetch_receiver(test.own, pixel, point, stratum, params.spp, params.camera, kStraddle, kCameraOrthographic);
+
+    // The hit as the light's view holds it: on its own triangle at its own time.
+    vec4 p0 = light_vertex_at(h.vertex.x, h);
+    vec4 p1 = light_vertex_at(h.vertex.y, h);
+    vec4 p2 = light_vertex_at(h.vertex.z, h);
+    vec4 p = h.barycentrics.x * p0 + h.barycentrics.y * p1 + h.barycentrics.z * p2;
+    test.receiver = h;
+    test.at = p.xy / p.w;
+    float depth = p.z / p.w;
+    test.depth = depth;
+
+    // In the light's own space, metres: the angle between ray and surface turns the tolerance along the normal into one in depth.
+    vec2 scale = 1.0 / vec2(params.scale_x, params.scale_y);
+    vec4 u = p1 - p0, v = p2 - p0;
+    float tolerance = occlusion_tolerance(h);
+    bool in_cone = true;
+    if (kOrthographic) {
+        vec3 n = cross3(vec3(u.xy * scale, u.z), vec3(v.xy * scale, v.z));
+        test.limit = depth - tolerance * sqrt(dot(n, n)) / abs(n.z);
+    } else {
+        vec3 q = vec3(p.xy * scale, p.w);
+        vec3 n = cross3(vec3(u.xy * scale, u.w), vec3(v.xy * scale, v.w));
+        test.limit = depth + depth * (tolerance * sqrt(dot(n, n)) / abs(dot(n, q)));
+        in_cone = q.z > 0.0 && q.x * q.x + q.y * q.y <= q.z * q.z * params.cone_tan2;
+    }
+
+    test.texel = texel_at(test.at);
+    uint tile = (test.texel.y / kTileSize) * ((params.light_width + kTileSize - 1u) / kTileSize) + test.texel.x / kTileSize;
+    // Of tiles that are not in the window the number wraps.
+    uint window_tile = tile - params.light_tile_first;
+    uint cell = cell_of(h.t, params.light_cell_count);
+    test.item = params.light_cell_major == 0u ? window_tile * params.light_cell_count + cell : cell * params.light_tile_count + window_tile;
+    test.here = inside && in_cone && window_tile < params.light_tile_count && in_memory(test.item);
+    test.list = list_of(test.item, test.texel);
+    return test;
+}
+
