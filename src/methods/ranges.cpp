@@ -19,15 +19,14 @@ SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer*
     const bool orthographic = light.view.orthographic;
     const RasterSource source{light.geometry, bins, light.asked};
     if (light.raster != "prism") {
-        return {light.device, light.programs, walk_bins(light.programs, source, shader, orthographic),
-                light.layout};
+        return {light.device, light.programs, walk_bins(light.programs, source, shader, orthographic), light.layout};
     }
     // A quarter for the fragments: what the ranges take is bounded on its own, by the bands that are filled.
     constexpr uint64_t kShare = 4;
     try {
         return {light.device, light.programs,
-                pair_fragments(light.device, light.programs, source, shader,
-                               {orthographic, culls_back_faces(light), coverage}, light.bytes / kShare),
+                pair_fragments(light.device, light.programs, source, shader, {orthographic, culls_back_faces(light), coverage},
+                               light.bytes / kShare),
                 light.layout};
     } catch (const BandTooLarge& error) {
         throw BandTooLarge(error, kShare);
@@ -37,8 +36,8 @@ SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer*
 class RangeMap final : public ShadowMap {
 public:
     RangeMap(const LightContext& light, const Bins& bins, bool covered)
-        : coverage_(covered ? make_coverage(light.device, light.programs, {light.geometry, bins, light.asked}, light.view.orthographic,
-                                            culls_back_faces(light))
+        : coverage_(covered ? make_coverage(light.device, light.programs, {light.geometry, bins, light.asked},
+                                            light.view.orthographic, culls_back_faces(light))
                             : CoverageMap()),
           ranges_(s_buffer(light, bins, covered ? &coverage_.coverage : nullptr)),
           bias_(map_bias(light)),

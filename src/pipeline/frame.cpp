@@ -196,7 +196,8 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     const auto left = [&] { return device.budget_left() - std::min(device.budget_left(), light_bytes); };
     const uint64_t room = left();
     const bool asked = method.has_s_buffer() && settings.pages == "asked" && !settings.keep_texel_ranges;
-    const uint64_t most_slots = batch_slots(device, view, settings.spp, method.fractional ? frame.light_count : 0, room / 4);
+    const uint64_t most_slots =
+        batch_slots(device, view, settings.spp, method.fractional ? frame.light_count : 0, asked, room / 4);
     Sampler sampler(device, programs, geometry, view, bins,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
@@ -207,8 +208,8 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
                      .asks = asked,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
-    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, asked}, scene, poses,
-                   bounds);
+    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, asked}, scene,
+                   poses, bounds);
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;
     uint64_t camera_entries = 0;

@@ -10,7 +10,7 @@
 namespace gnomon {
 
 CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterSource& source, bool orthographic,
-                           bool cull_back_faces) {
+                          bool cull_back_faces) {
     const uint32_t items = source.item_count();
     const uint64_t item_bytes = uint64_t(shared::kTileTexels) * 4, bytes = items * item_bytes;
     if (uint64_t(items) * shared::kTileTexels > device.limits().most_elements(4)) {
@@ -36,9 +36,10 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterS
         for (uint32_t pass = 0; pass < 4; ++pass) {
             for (uint32_t part = 0; part < bin_part_count(source.bins); ++part) {
                 recorder.fill("raster/coverage", ticket, 0);
-                recorder.dispatch("raster/coverage", programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}),
-                                  all, shared::RasterParams{source.bins.grid, count, first, part * shared::kListChunk, 0, 0},
-                                  groups_of(count, 8));
+                recorder.dispatch(
+                    "raster/coverage",
+                    programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}), all,
+                    shared::RasterParams{source.bins.grid, count, first, part * shared::kListChunk, 0, 0}, groups_of(count, 8));
             }
         }
     }

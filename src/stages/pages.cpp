@@ -32,11 +32,10 @@ void Pages::list() {
     record_scan(device_, programs_, marks, items, page_of_);
     count_ = gpu::download_vector<uint32_t>(device_, page_of_, 1, uint64_t(items) * 4)[0];
     pages_ = device_.allocate("pages", std::max<uint64_t>(1, count_) * sizeof(glm::uvec4));
-    recorder.dispatch("pages", programs_.get("pages/list"),
-                      bindings({{"receivers", &receivers_, Texel::rg32_uint},
-                                {"page_of", &page_of_, Texel::r32_uint},
-                                {"Pages", &pages_}}),
-                      params, groups_of(items, 64));
+    recorder.dispatch(
+        "pages", programs_.get("pages/list"),
+        bindings({{"receivers", &receivers_, Texel::rg32_uint}, {"page_of", &page_of_, Texel::r32_uint}, {"Pages", &pages_}}),
+        params, groups_of(items, 64));
 }
 
 }  // namespace gnomon

@@ -30,10 +30,7 @@ Layout fragment_layout() {
 class CollectFragments final : public RasterStage {
 public:
     CollectFragments(gpu::Device& device, Programs& programs, const RasterSource& source, const PrismSettings& settings)
-        : programs_(programs),
-          source_(source),
-          settings_(settings),
-          no_coverage_(device.allocate("unbound", 4)) {}
+        : programs_(programs), source_(source), settings_(settings), no_coverage_(device.allocate("unbound", 4)) {}
 
     const shared::ViewGrid& grid() const override { return source_.bins.grid; }
     uint32_t item_count() const override { return source_.item_count(); }
@@ -42,9 +39,8 @@ public:
     uint32_t part_count() const override { return bin_part_count(source_.bins); }
     const char* timing(bool fill) const override { return fill ? "raster/fragments" : "raster/count_fragments"; }
     const gpu::Program& program(bool fill) const override {
-        return programs_.get("raster/fragments",
-                             {fill, settings_.orthographic, settings_.cull_back_faces, source_.asked != nullptr,
-                              settings_.coverage != nullptr});
+        return programs_.get("raster/fragments", {fill, settings_.orthographic, settings_.cull_back_faces,
+                                                  source_.asked != nullptr, settings_.coverage != nullptr});
     }
     std::vector<gpu::Binding> bindings() const override {
         std::vector<gpu::Binding> all = source_.bindings();
@@ -83,7 +79,9 @@ public:
     uint32_t part_count() const override {
         return std::max(1u, static_cast<uint32_t>(groups_of(fragments_.longest(), shared::kPairChunk)));
     }
-    const gpu::Program& program(bool fill) const override { return programs_.get(shader_, {fill, part_count() > 1, source_.asked != nullptr}); }
+    const gpu::Program& program(bool fill) const override {
+        return programs_.get(shader_, {fill, part_count() > 1, source_.asked != nullptr});
+    }
     std::vector<gpu::Binding> bindings() const override {
         std::vector<gpu::Binding> all = fragments_.read_bindings();
         all.push_back({"PairCounts", &pair_counts_});

@@ -12,7 +12,8 @@ using gpu::Texel;
 
 class WalkBins final : public RasterStage {
 public:
-    WalkBins(Programs& programs, const RasterSource& source, std::string shader, std::vector<uint32_t> constants, uint32_t items_per_group, uint32_t ranges_per_prism)
+    WalkBins(Programs& programs, const RasterSource& source, std::string shader, std::vector<uint32_t> constants,
+             uint32_t items_per_group, uint32_t ranges_per_prism)
         : programs_(programs),
           source_(source),
           shader_(std::move(shader)),
@@ -51,10 +52,10 @@ gpu::Binding RasterSource::pages() const {
 
 std::vector<gpu::Binding> RasterSource::bindings() const {
     return gnomon::bindings({{"bin_offsets", &bins.offsets, Texel::r32_uint},
-                     {"bin_entries", &bins.entries, Texel::r32_uint},
-                     {"triangles", &geometry.scene->triangles, Texel::rgba32_uint},
-                     {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
-                     pages()});
+                             {"bin_entries", &bins.entries, Texel::r32_uint},
+                             {"triangles", &geometry.scene->triangles, Texel::rgba32_uint},
+                             {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
+                             pages()});
 }
 
 uint32_t bin_part_count(const Bins& bins) {
@@ -68,8 +69,7 @@ std::unique_ptr<RasterStage> walk_bins(Programs& programs, const RasterSource& s
     if (stage == "raster/conservative") {
         return std::make_unique<WalkBins>(programs, source, shader, Constants{orthographic, programs.crew()}, 8, 1);
     }
-    if (stage == "raster/analytic")
-        return std::make_unique<WalkBins>(programs, source, shader, Constants{orthographic}, 1, 4);
+    if (stage == "raster/analytic") return std::make_unique<WalkBins>(programs, source, shader, Constants{orthographic}, 1, 4);
     throw Error(ErrorKind::internal, "no such raster stage", shader, "report this as a bug");
 }
 

@@ -144,10 +144,10 @@ void Sampler::ask(const LightSide& light, float tolerance) {
     all.insert(all.end(), {{"Asked", &asked_}, {"AskedItems", &asked_items_}, {"Receivers", &light.asked->receivers()}});
     gpu::Recorder& recorder = device_.recorder();
     recorder.fill("sample/ask", ticket_, 0);
-    recorder.dispatch_indirect(
-        "sample/ask", programs_.get("sample/ask", {light.view.orthographic, view_.orthographic, tracer_.straddle()}), all,
-        shadow_params(light, {light.bins.grid.cell_count}, {0, light.bins.item_count()}, tolerance), shadow_groups_, 0,
-        most_groups());
+    recorder.dispatch_indirect("sample/ask",
+                               programs_.get("sample/ask", {light.view.orthographic, view_.orthographic, tracer_.straddle()}),
+                               all, shadow_params(light, {light.bins.grid.cell_count}, {0, light.bins.item_count()}, tolerance),
+                               shadow_groups_, 0, most_groups());
 }
 
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
@@ -171,8 +171,9 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
     lit_written_ = true;
     recorder.fill("sample/shadow", shadow_counts_, 0);
-    std::vector<uint32_t> constants = {light.view.orthographic, view_.orthographic, tracer_.straddle(),    settings_.count_ranges,
-                                       parts > 1,               first,              light.asked != nullptr};
+    std::vector<uint32_t> constants = {light.view.orthographic, view_.orthographic, tracer_.straddle(),
+                                       settings_.count_ranges,  parts > 1,          first,
+                                       light.asked != nullptr};
     const std::vector<uint32_t> own = light.map->test_constants();
     constants.insert(constants.end(), own.begin(), own.end());
     shared::ShadowParams params = shadow_params(light, light.map->order(), band, tolerance);

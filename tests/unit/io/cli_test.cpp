@@ -52,7 +52,8 @@ TEST_F(CliTest, HelpGoesToStdout) {
          {"-o",        "--png",    "--exposure",      "--size",          "--spp",    "--seed",       "--shutter",
           "--frames",  "--fps",    "--shutter-angle", "--animation",     "--camera", "--time-steps", "--method",
           "--layout",  "--raster", "--shadow-res",    "--memory-budget", "--device", "--json",       "--quiet",
-          "--verbose", "--ground", "--validate",      "--map-spp",       "--bias"})
+          "--verbose", "--ground", "--validate",      "--map-spp",       "--bias",
+          "--pages"})
         EXPECT_THAT(help, HasSubstr(option));
 }
 
@@ -69,6 +70,7 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWith2) {
                                                {"render", "a.gltf", "-o", "a.exr", "--size=0x1"},
                                                {"render", "a.gltf", "-o", "a.exr", "--shutter=1:0"},
                                                {"render", "a.gltf", "-o", "a.exr", "--raster=magic"},
+                                               {"render", "a.gltf", "-o", "a.exr", "--pages=some"},
                                                {"render", "a.gltf", "-o", "a.exr", "--method=tsm", "--layout=array"},
                                                {"render", "a.gltf", "-o", "a.exr", "--method=tsm", "--bias=-1"},
                                                {"render", "a.gltf", "-o", "a.exr", "--quiet", "--verbose"},
