@@ -166,7 +166,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     const Window& window = light.bins.window;
     const bool whole =
         window.tile_count == tiles_across(light.view) * tiles_down(light.view) && band.item_count == light.map->item_count();
-    const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole;
+    const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole && !light.asked;
     gpu::Recorder& recorder = device_.recorder();
     if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
     lit_written_ = true;
