@@ -31,7 +31,7 @@ void main() {
     uint visited = 0u;
     uint tested = 0u;
     ListIterator it = layout_begin(test.here ? test.list : params.item_first * kTileTexels);
-    if (kResume && params.part > 0u) it = iterators[i];
+    if (kResume && params.part > 0u && i < hit_count()) it = iterators[i];
     // Collect candidates, then test them: two short loops instead of a loop in a loop, whose entry costs lavapipe more than a range. What is read behind a loop that
     // invocations leave at different times must be the loop's own state, tested at its top: lavapipe gives values made in the body those of the last iteration of any.
     uint steps = 0u;

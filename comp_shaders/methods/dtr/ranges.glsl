@@ -12,7 +12,7 @@ bool occluded_by_ranges(uint i, ShadowTest test, bool walk, inout uint visited, 
     float metres_near = kOrthographic ? params.depth_near : -1.0 / params.depth_near;
     bool occluded = false;
     ListIterator it = layout_begin(test.here ? test.list : params.item_first * kTileTexels);
-    if (kResume && params.part > 0u) it = iterators[i];
+    if (kResume && params.part > 0u && i < hit_count()) it = iterators[i];
     uint steps = 0u;
     bool more = test.here && walk && layout_more(it);
     while (more) {
