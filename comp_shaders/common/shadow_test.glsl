@@ -23,6 +23,8 @@ READ_VEC4(8, positions)
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
 layout(binding = 9, scalar) buffer Ticket { uint ticket; };
 READ_UINT(11, runs)
+READ_UINT(12, shells)
+READ_UINT(13, closed)
 layout(push_constant, scalar) uniform Push { ShadowParams params; };
 #include "common/ticket.glsl"
 #include "common/triangle.glsl"
@@ -35,6 +37,9 @@ vec4 light_vertex_at(uint vertex, Receiver h) {
     vec4 b = fetch_light_vertices(i + params.camera.vertex_stride);
     return vertex_at(a, b - a, h.local_time);
 }
+
+// Is the triangle of a shell that counts as closed?
+bool is_closed(uint triangle) { return fetch_closed(fetch_shells(triangle)) != 0u; }
 
 // Metres along the hit's normal within which nothing occludes: 2^-20 of its largest coordinate, but no less than the light space's own rounding.
 float occlusion_tolerance(Receiver h) {
@@ -57,21 +62,33 @@ uint take_hit() { return take_ticket() * gl_WorkGroupSize.x + gl_LocalInvocation
 struct ShadowTest {
     uint slot;
     uint own;           // The hit's triangle, which does not occlude it.
+    bool reversed;      // As the camera sees it.
+    bool light_reversed;
     Receiver receiver;
     vec2 at;            // Raster space of the light's view.
     uvec2 texel;
     float depth;        // In the light's view, z / w.
     float limit;        // Depth from which on nothing occludes: the hit's, less the tolerance along its normal.
+    float tolerance;    // Metres.
+    vec3 place;         // In the light's own space, metres.
+    vec3 normal;        // There, on the light's side; its length is twice the triangle's area.
     uint list;          // Of its texel and cell of time.
     bool here;          // There is such a hit, the light may reach it, and its list is in memory.
 };
+
+// A point of raster space in the light's own space, metres: x and y across, z along the view axis.
+vec3 light_place(vec4 p) {
+    return vec3(p.xy * (1.0 / vec2(params.scale_x, params.scale_y)), kOrthographic ? p.z : p.w);
+}
 
 // Hit `i` of the queue.
 ShadowTest shadow_test(uint i) {
     ShadowTest test;
     bool inside = i < hit_count();
     test.slot = fetch_queue(inside ? i : 0u);
-    test.own = fetch_hits(test.slot) & ~kReversed;
+    uint hit = fetch_hits(test.slot);
+    test.own = hit & ~kReversed;
+    test.reversed = (hit & kReversed) != 0u;
     Slot s = unpack_slot(test.slot, params.stratum_count);
     uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
     uint stratum = params.stratum_first + s.stratum;
@@ -88,18 +105,21 @@ ShadowTest shadow_test(uint i) {
     float depth = p.z / p.w;
     test.depth = depth;
 
-    // In the light's own space, metres: the angle between ray and surface turns the tolerance along the normal into one in depth.
-    vec2 scale = 1.0 / vec2(params.scale_x, params.scale_y);
-    vec4 u = p1 - p0, v = p2 - p0;
+    // The angle between ray and surface turns the tolerance along the normal into one in depth.
     float tolerance = occlusion_tolerance(h);
+    test.tolerance = tolerance;
     bool in_cone = true;
+    test.place = light_place(p);
+    vec3 n = cross3(light_place(p1 - p0), light_place(p2 - p0));
+    float slope = kOrthographic ? n.z : dot(n, test.place);  // Of the surface along the ray, times the length of n.
+    test.light_reversed = slope < 0.0;
+    test.normal = test.light_reversed ? n : -n;
+    float along_ray = tolerance * sqrt(dot(n, n)) / abs(slope);
     if (kOrthographic) {
-        vec3 n = cross3(vec3(u.xy * scale, u.z), vec3(v.xy * scale, v.z));
-        test.limit = depth - tolerance * sqrt(dot(n, n)) / abs(n.z);
+        test.limit = depth - along_ray;
     } else {
-        vec3 q = vec3(p.xy * scale, p.w);
-        vec3 n = cross3(vec3(u.xy * scale, u.w), vec3(v.xy * scale, v.w));
-        test.limit = depth + depth * (tolerance * sqrt(dot(n, n)) / abs(dot(n, q)));
+        vec3 q = test.place;
+        test.limit = depth + depth * along_ray;
         in_cone = q.z > 0.0 && q.x * q.x + q.y * q.y <= q.z * q.z * params.cone_tan2;
     }
 

@@ -25,6 +25,8 @@ struct RenderSettings {
         "auto";  ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
+    /// Of closed meshes list one side only, where the picture does not depend on what is listed (method exact). For comparison.
+    bool closed_meshes = true;
     uint64_t memory_budget = 0;      ///< Most bytes of device memory; 0: half the device's heap.
     bool keep_samples = false;       ///< Fill Frame::samples.
     bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges.

@@ -18,8 +18,11 @@ SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer*
     const std::string shader = light.layout.stage("raster/" + light.raster);
     const bool orthographic = light.view.orthographic;
     if (light.raster != "prism") {
-        return {light.device, light.programs, walk_bins(light.programs, light.geometry, bins, shader, orthographic),
-                light.layout};
+        return {light.device,
+                light.programs,
+                walk_bins(light.programs, light.geometry, bins, shader, orthographic),
+                light.layout,
+                {light.one_sided}};
     }
     // A quarter for the fragments: what the ranges take is bounded on its own, by the bands that are filled.
     constexpr uint64_t kShare = 4;

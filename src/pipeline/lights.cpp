@@ -34,7 +34,7 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
     for (Light& light : lights_) {
         contexts_.push_back({shared_.device, shared_.programs, shared_.geometry, shared_.settings, shared_.method,
                              light.side.view, light.side.light_ix, shared_.still, 0, shared_.layout, shared_.raster,
-                             &shared_.camera});
+                             &shared_.camera, shared_.one_sided});
         const uint64_t all = uint64_t(tiles_across(light.side.view)) * tiles_down(light.side.view);
         light.windows = windows_of(light.side.view, shared_.method.windowed ? most_tiles(contexts_.back()) : all);
     }
@@ -49,6 +49,11 @@ uint64_t Lights::most_tiles(const LightContext& context) const {
     const uint64_t texels = shared_.method.has_s_buffer() ? (limits.most_elements(4) - shared::kScanRun) / cells
                                                           : std::min(limits.max_storage_range, limits.most_elements(4) * 4) / 8;
     return std::min(lists / cells, texels / shared::kTileTexels);
+}
+
+Listing Lights::listing() const {
+    if (shared_.raster == "prism") return Listing::bounds;
+    return shared_.one_sided ? Listing::away : Listing::swept;
 }
 
 void Lights::prepare() {

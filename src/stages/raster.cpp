@@ -21,11 +21,13 @@ uint64_t align_down(uint64_t value) { return value / kRangeAlign * kRangeAlign; 
 
 }  // namespace
 
-SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout)
+SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
+                 std::vector<uint32_t> test_constants)
     : device_(device),
       programs_(programs),
       raster_(std::move(raster)),
       layout_(layout),
+      test_constants_(std::move(test_constants)),
       unbound_(device, layout.buffers.size()) {
     item_count_ = raster_->item_count();
     list_count_ = uint64_t(item_count_) * shared::kTileTexels;

@@ -12,9 +12,10 @@ namespace gnomon {
 
 class SBuffer final : public ShadowMap {
 public:
-    /// Count the ranges of all lists. raster: compiled for the layout.
+    /// Count the ranges of all lists. raster: compiled for the layout. test_constants: of the test that reads them.
     /// Errors: ErrorKind::out_of_memory, also later, when the count is known.
-    SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout);
+    SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
+            std::vector<uint32_t> test_constants = {});
 
     uint64_t range_count() const { return counted().range_count; }
     uint64_t list_count() const { return list_count_; }
@@ -30,6 +31,7 @@ public:
     std::vector<Band> bands(uint64_t bytes) const override;
     void fill(const Band& band) override;
     std::vector<gpu::Binding> read_bindings() const override;
+    std::vector<uint32_t> test_constants() const override { return test_constants_; }
     uint32_t range_base() const override { return range_base_; }
     std::vector<uint32_t> texel_ranges(const std::vector<Band>& bands) override;
 
@@ -61,6 +63,7 @@ private:
     Programs& programs_;
     std::unique_ptr<RasterStage> raster_;
     Layout layout_;
+    std::vector<uint32_t> test_constants_;
     std::vector<Band> portions_;    ///< The raster stage's; all items, where it has none.
     size_t prepared_ = ~size_t(0);  ///< Which of them is.
     uint32_t item_count_ = 0;

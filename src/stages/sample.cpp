@@ -99,6 +99,8 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                                      {"runs", &runs_, Texel::r32_uint},
                                      {"hits", &tracer_.hits(), Texel::r32_uint},
                                      {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
+                                     {"shells", &geometry_.scene->shells, Texel::r32_uint},
+                                     {"closed", &geometry_.closed, Texel::r32_uint},
                                      {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                      {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
                                      {"positions", &geometry_.positions, Texel::rgba32_float},
