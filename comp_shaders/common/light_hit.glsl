@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kOrthographic = false;        // The light's view.
 layout(constant_id = 1) const bool kCameraOrthographic = false;
 layout(constant_id = 2) const bool kStraddle = false;            // As in sample/trace.
+layout(constant_id = 3) const bool kOneSide = false;             // Of closed shells the lists hold only what looks away from the light.
 READ_UINT(0, queue)
 READ_UINT(1, hits)
 READ_UVEC4(2, triangles)
@@ -15,6 +16,8 @@ READ_VEC4(4, light_vertices)
 READ_VEC4(8, positions)
 layout(binding = 9, scalar) buffer Ticket { uint ticket; };
 READ_UINT(11, runs)
+READ_UINT(12, shells)
+READ_UINT(13, closed)
 layout(push_constant, scalar) uniform Push { ShadowParams params; };
 #include "common/ticket.glsl"
 #include "common/triangle.glsl"
@@ -27,6 +30,9 @@ vec4 light_vertex_at(uint vertex, Receiver h) {
     vec4 b = fetch_light_vertices(i + params.camera.vertex_stride);
     return vertex_at(a, b - a, h.local_time);
 }
+
+// Is the triangle of a shell that counts as closed?
+bool is_closed(uint triangle) { return fetch_closed(fetch_shells(triangle)) != 0u; }
 
 // Metres along the hit's normal within which nothing occludes: 2^-20 of its largest coordinate, but no less than the light space's own rounding.
 float occlusion_tolerance(Receiver h) {
@@ -54,6 +60,7 @@ struct ShadowTest {
     uvec2 texel;
     float depth;        // In the light's view, z / w.
     float limit;        // Depth from which on nothing occludes: the hit's, less the tolerance along its normal.
+    bool behind;        // Camera and light see different sides of its triangle.
     uint item;          // Its tile of the window and cell of time.
     uint list;          // Of its texel and cell of time.
     bool here;          // There is such a hit, the light may reach it, and its list is in memory.
@@ -68,12 +75,26 @@ bool in_memory(uint item) { return item >= params.item_first && item < params.it
 
 uint list_of(uint item, uvec2 texel) { return item * kTileTexels + (texel.y & 7u) * kTileSize + (texel.x & 7u); }
 
+// A point of raster space in the light's own space, metres: x and y across, z along the view axis.
+vec3 light_place(vec4 p) {
+    return vec3(p.xy * (1.0 / vec2(params.scale_x, params.scale_y)), kOrthographic ? p.z : p.w);
+}
+
+// Inside a closed shell, which it lights from behind: dark.
+bool is_inside(ShadowTest test) { return kOneSide && test.here && test.behind && is_closed(test.own); }
+
+// Depth from which on nothing of what is listed occludes the hit.
+float deepest(ShadowTest test) {
+    return !kOneSide ? test.limit : (test.behind ? test.depth + 8.0 * (test.depth - test.limit) : test.depth);
+}
+
 // Hit `i` of the queue.
 ShadowTest find_hit(uint i) {
     ShadowTest test;
     bool inside = i < hit_count();
     test.slot = fetch_queue(inside ? i : 0u);
-    test.own = fetch_hits(test.slot) & ~kReversed;
+    uint hit = fetch_hits(test.slot);
+    test.own = hit & ~kReversed;
     Slot s = unpack_slot(test.slot, params.stratum_count);
     uvec2 pixel = slot_pixel(s, params.tile_first, params.camera.tiles_x);
     uint stratum = params.stratum_first + s.stratum;
@@ -90,20 +111,14 @@ ShadowTest find_hit(uint i) {
     float depth = p.z / p.w;
     test.depth = depth;
 
-    // In the light's own space, metres: the angle between ray and surface turns the tolerance along the normal into one in depth.
-    vec2 scale = 1.0 / vec2(params.scale_x, params.scale_y);
-    vec4 u = p1 - p0, v = p2 - p0;
-    float tolerance = occlusion_tolerance(h);
-    bool in_cone = true;
-    if (kOrthographic) {
-        vec3 n = cross3(vec3(u.xy * scale, u.z), vec3(v.xy * scale, v.z));
-        test.limit = depth - tolerance * sqrt(dot(n, n)) / abs(n.z);
-    } else {
-        vec3 q = vec3(p.xy * scale, p.w);
-        vec3 n = cross3(vec3(u.xy * scale, u.w), vec3(v.xy * scale, v.w));
-        test.limit = depth + depth * (tolerance * sqrt(dot(n, n)) / abs(dot(n, q)));
-        in_cone = q.z > 0.0 && q.x * q.x + q.y * q.y <= q.z * q.z * params.cone_tan2;
-    }
+    // The angle between ray and surface turns the tolerance along the normal into one in depth.
+    vec3 place = light_place(p);
+    vec3 n = cross3(light_place(p1 - p0), light_place(p2 - p0));
+    float slope = kOrthographic ? n.z : dot(n, place);  // Of the surface along the ray, times the length of n.
+    test.behind = ((hit & kReversed) != 0u) != (slope < 0.0);
+    float along_ray = occlusion_tolerance(h) * sqrt(dot(n, n)) / abs(slope);
+    test.limit = kOrthographic ? depth - along_ray : depth + depth * along_ray;
+    bool in_cone = kOrthographic || (place.z > 0.0 && place.x * place.x + place.y * place.y <= place.z * place.z * params.cone_tan2);
 
     test.texel = texel_at(test.at);
     uint tile = (test.texel.y / kTileSize) * ((params.light_width + kTileSize - 1u) / kTileSize) + test.texel.x / kTileSize;

@@ -4,32 +4,34 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
-layout(constant_id = 3) const bool kCount = false;   // Fill ShadowCounts.
-layout(constant_id = 4) const bool kResume = false;  // Lists are walked in parts of kListChunk.
-layout(constant_id = 5) const bool kFirst = false;   // Nothing was written to Lit before.
-layout(constant_id = 6) const bool kAsked = false;   // Only pages that were asked for are there, and items are numbered among them.
+layout(constant_id = 4) const bool kCount = false;   // Fill ShadowCounts.
+layout(constant_id = 5) const bool kResume = false;  // Lists are walked in parts of kListChunk.
+layout(constant_id = 6) const bool kFirst = false;   // Nothing was written to Lit before.
+layout(constant_id = 7) const bool kAsked = false;   // Only pages that were asked for are there, and items are numbered among them.
 layout(binding = 5, scalar) buffer Lit { uint lit[]; };
 layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
-READ_VEC4(12, asked)
-READ_UINT(13, asked_items)
-READ_UINT(14, page_of)
+READ_VEC4(14, asked)
+READ_UVEC2(15, asked_items)
+READ_UINT(40, page_of)  // Layouts have bindings from 16 on.
 
 // Hit `i` of the queue, as sample/ask left it. Its receiver has no barycentrics.
 ShadowTest asked_hit(uint i) {
     ShadowTest test;
     bool inside = i < hit_count();
     vec4 asked = fetch_asked(inside ? i : 0u);
-    uint item = fetch_asked_items(inside ? i : 0u);
-    inside = inside && item != kNone;
-    item = inside ? item : 0u;
+    uvec2 item_time = fetch_asked_items(inside ? i : 0u);
+    inside = inside && item_time.x != kNone;
+    uint item = inside ? item_time.x & ~kReversed : 0u;
     test.slot = fetch_queue(i < hit_count() ? i : 0u);
     test.own = fetch_hits(test.slot) & ~kReversed;
     test.at = asked.xy;
     test.limit = asked.z;
-    test.receiver.t = asked.w;
-    test.receiver.segment = divide(cell_of(asked.w, params.light_cell_count) * params.camera.segment_count, params.light_cell_count);
-    test.receiver.local_time = local_time_of(asked.w, test.receiver.segment, params.camera.segment_count);
+    test.depth = asked.w;
+    test.behind = (item_time.x & kReversed) != 0u;
+    test.receiver.t = uintBitsToFloat(item_time.y);
+    test.receiver.segment = divide(cell_of(test.receiver.t, params.light_cell_count) * params.camera.segment_count, params.light_cell_count);
+    test.receiver.local_time = local_time_of(test.receiver.t, test.receiver.segment, params.camera.segment_count);
     test.texel = texel_at(test.at);
     uint page = fetch_page_of(item);
     test.item = page;

@@ -8,6 +8,9 @@ GN_BEGIN
 
 const uint kSeenPositive = 1u;  // May have det > 0 at some time.
 const uint kSeenNegative = 2u;
+// How the eye sees a triangle that looks away from it, when its vertices run counterclockwise around its outer side, as in
+// glTF: y is down in raster space.
+const uint kSeenAway = kSeenPositive;
 
 GN_FN float det3(vec3 a, vec3 b, vec3 c) {
     return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: each hit asks for its page of the light's view: 8 x 8 texels in one cell of time. It is kept as the light's view holds it, for the test.
 // Reads:   queue, hits, triangles, raster_vertices (camera), light_vertices, positions
-// Writes:  Asked (place in raster space, limit of depth, time), AskedItems (of the window, or kNone), Receivers (per item: ordered bits of the farthest limit, 0: nobody asked;
+// Writes:  Asked (place in raster space, limit of depth, depth), AskedItems (of the window, with kReversed where the hit is lit from behind, or kNone; time), Lit (of hits that
+//          are inside a closed shell: bit `light`), Receivers (per item: ordered bits of the farthest limit, 0: nobody asked;
 //          the triangle of those who asked, plus one, kNone: they lie on several)
 // Grid:    one invocation per hit
 #extension GL_GOOGLE_include_directive : require
@@ -10,21 +11,24 @@
 #include "math/order.h"
 
 layout(binding = 5, scalar) writeonly buffer Asked { vec4 asked[]; };
-layout(binding = 6, scalar) writeonly buffer AskedItems { uint asked_items[]; };
+layout(binding = 6, scalar) writeonly buffer AskedItems { uvec2 asked_items[]; };
+layout(binding = 10, scalar) buffer Lit { uint lit[]; };
 layout(binding = 7, scalar) coherent buffer Receivers { uvec2 receivers[]; };
 
 void main() {
     uint i = take_hit();
     ShadowTest test = find_hit(i);
-    // Of a surface that the light sees edge-on there is no limit: nothing shadows it.
-    float limit = test.limit > -kFarthest ? test.limit : -kFarthest;
+    bool dark = is_inside(test);
+    bool asks = test.here && !dark;
+    if (dark) lit[test.slot] &= ~(1u << params.light);
     if (i < hit_count()) {
-        asked[i] = vec4(test.at, limit, test.receiver.t);
-        asked_items[i] = test.here ? test.item : kNone;
+        asked[i] = vec4(test.at, test.limit, test.depth);
+        asked_items[i] = uvec2(asks ? test.item | (test.behind ? kReversed : 0u) : kNone, floatBitsToUint(test.receiver.t));
     }
-    if (test.here) {
-        // Most find what they would write.
-        uint order = ordered_bits(limit);
+    if (asks) {
+        // Of a surface that the light sees edge-on there may be none: nothing shadows it. Most find what they would write.
+        float limit = deepest(test);
+        uint order = ordered_bits(limit > -kFarthest ? limit : -kFarthest);
         if (receivers[test.item].x < order) atomicMax(receivers[test.item].x, order);
         uint before = receivers[test.item].y;
         if (before == 0u) before = atomicCompSwap(receivers[test.item].y, 0u, test.own + 1u);

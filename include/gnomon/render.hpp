@@ -26,6 +26,8 @@ struct RenderSettings {
     std::string pages = "asked";  ///< Of an S-buffer are made: all its pages, or those that are asked for.
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
+    /// Of closed meshes list one side only, where the picture does not depend on what is listed (method exact). For comparison.
+    bool closed_meshes = true;
     uint64_t memory_budget = 0;      ///< Most bytes of device memory; 0: half the device's heap.
     bool keep_samples = false;       ///< Fill Frame::samples.
     bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges.

@@ -13,11 +13,18 @@ Json document(const std::string& kind) {
 
 Json settings_json(const RenderSettings& settings) {
     Json json = {
-        {"width", settings.width},   {"height", settings.height},
-        {"spp", settings.spp},       {"seed", settings.seed},
-        {"camera", settings.camera}, {"shadow_res", settings.shadow_res},
-        {"method", settings.method}, {"layout", settings.layout},
-        {"raster", settings.raster}, {"pages", settings.pages}, {"memory_budget", settings.memory_budget},
+        {"width", settings.width},
+        {"height", settings.height},
+        {"spp", settings.spp},
+        {"seed", settings.seed},
+        {"camera", settings.camera},
+        {"shadow_res", settings.shadow_res},
+        {"method", settings.method},
+        {"layout", settings.layout},
+        {"raster", settings.raster},
+        {"pages", settings.pages},
+        {"closed_meshes", settings.closed_meshes},
+        {"memory_budget", settings.memory_budget},
     };
     for (const auto& [name, value] : settings.parameters) {
         std::string key = name;

@@ -6,9 +6,11 @@
 #include <gnomon/error.hpp>
 #include <gnomon/render.hpp>
 #include <limits>
+#include <numeric>
 
 #include "layouts/compile_layout.hpp"
 #include "methods/method.hpp"
+#include "pipeline/closed.hpp"
 #include "pipeline/film.hpp"
 #include "pipeline/lights.hpp"
 #include "pipeline/memory_plan.hpp"
@@ -184,12 +186,21 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     // The scene, posed.
     if (!loaded) loaded = std::make_shared<SceneData>(upload_scene(device, scene));
     Geometry geometry = pose_geometry(device, programs, std::move(loaded), poses);
-    const Bounds bounds = geometry_bounds(device, programs, geometry, scene, poses);
+    const GeometryBounds boxes = geometry_bounds(device, programs, geometry, scene, poses);
+    const Bounds& bounds = boxes.all;
     gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(scene, poses));
 
     // The camera's vertices and the sampler; then window by window its prisms and samples.
     const View view = camera_view(scene.cameras[settings.camera], poses, settings.camera, settings.width, settings.height);
     const bool still = is_still(poses);
+    const bool one_sided = method.one_sided && settings.closed_meshes;
+    uint64_t closed_triangles = 0;
+    if (one_sided) {
+        const std::vector<uint32_t> closed = closed_shells(scene, poses, boxes, view);
+        geometry.closed = gpu::upload_new(device, "closed", closed);
+        closed_triangles =
+            std::inner_product(closed.begin(), closed.end(), geometry.scene->shell_triangles.begin(), uint64_t{0});
+    }
     Bins bins = project_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, still));
     // What there is to share out: a light's vertices have to fit in as well.
     const uint64_t light_bytes = scene.lights.empty() ? 0 : bins.raster_vertices.bytes();
@@ -206,10 +217,12 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
                      .most_slots = most_slots,
                      .fractional = method.fractional,
                      .asks = asked,
+                     .one_sided = closed_triangles > 0,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
-    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, asked}, scene,
-                   poses, bounds);
+    Lights shadows(
+        {device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, asked, closed_triangles > 0},
+        scene, poses, bounds);
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;
     uint64_t camera_entries = 0;
@@ -241,6 +254,7 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     shadows.report(frame);
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     frame.stats.counts["triangles"] = geometry.scene->triangle_count;
+    frame.stats.counts["closed_triangles"] = closed_triangles;
     frame.stats.counts["prisms"] = uint64_t(geometry.scene->triangle_count) * geometry.segment_count;
     frame.stats.counts["bin_entries.camera"] = camera_entries;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;

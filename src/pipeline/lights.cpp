@@ -54,6 +54,11 @@ uint64_t Lights::most_tiles(const LightContext& context) const {
     return std::min(lists / cells, texels / shared::kTileTexels);
 }
 
+Listing Lights::listing() const {
+    if (shared_.raster == "prism") return Listing::bounds;
+    return shared_.one_sided ? Listing::away : Listing::swept;
+}
+
 void Lights::prepare() {
     make_together();
     // Only a count tells whether the ranges of a window fit. To make one may cut it in two.

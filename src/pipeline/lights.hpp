@@ -23,9 +23,10 @@ public:
         std::string raster;
         const View& camera;
         Sampler& sampler;
-        uint64_t room = 0;   ///< Bytes of the budget that were shared out.
-        bool still = false;  ///< Nothing moves.
-        bool asked = false;  ///< Of S-buffers only the pages are made that a batch asks for.
+        uint64_t room = 0;       ///< Bytes of the budget that were shared out.
+        bool still = false;      ///< Nothing moves.
+        bool asked = false;      ///< Of S-buffers only the pages are made that a batch asks for.
+        bool one_sided = false;  ///< Of shells that count as closed list what looks away from the light.
     };
 
     /// Nothing is made yet. Point lights have no map.
@@ -58,7 +59,7 @@ private:
     };
 
     uint64_t most_tiles(const LightContext& context) const;
-    Listing listing() const { return shared_.raster == "prism" ? Listing::bounds : Listing::swept; }
+    Listing listing() const;
     void make_together();
     /// Have windows[window] of the light in memory. Where it does not fit, other lights go, then it is halved.
     void make(size_t light, size_t window);

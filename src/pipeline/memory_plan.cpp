@@ -16,7 +16,7 @@ constexpr uint32_t kLightCells = 4;
 constexpr uint64_t kBatchSlots = 4u << 20;
 constexpr uint64_t kGpuBatchSlots = 16u << 20;
 constexpr uint64_t kSlotBytes = 24;
-constexpr uint64_t kAskBytes = 20;
+constexpr uint64_t kAskBytes = 24;
 
 // A window of a tile, a batch of a few samples, and what is binned with them; more for larger scenes, which would take hours in
 // so little.
@@ -41,6 +41,7 @@ std::vector<SceneBuffer> scene_buffers(const Scene& scene, uint64_t keys) {
     for (const Image& image : scene.images) texels += uint64_t(image.width) * image.height;
     const uint64_t vertices = scene.vertices.size() + 64;  // Rounded up to keep bindings aligned.
     return {{"triangles", scene.triangles.size() + 1, 16, kSmallerScene},
+            {"numbers of shells", scene.triangles.size(), 4, kSmallerScene},
             {"positions (vertices times poses)", vertices * keys, 16, kFewerKeys},
             {"normals (vertices times poses)", vertices * keys, 16, kFewerKeys},
             {"vertex attributes", 2 * vertices, 16, kSmallerScene},
@@ -79,7 +80,7 @@ void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, u
                     "use fewer than " + std::to_string(shared::kMostTurns - influences));
     }
     // The camera's view of the vertices, and one light's.
-    const uint64_t views = (scene.lights.empty() ? 1 : 2) * buffers[1].elements * buffers[1].bytes;
+    const uint64_t views = (scene.lights.empty() ? 1 : 2) * buffers[2].elements * buffers[2].bytes;
     const uint64_t data = bytes_of(buffers) + views;
     const uint64_t needed = data + std::max(kLeastWorkBytes, data / kLeastWorkShare);
     if (needed <= budget) return;

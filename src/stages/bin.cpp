@@ -58,6 +58,7 @@ public:
           geometry_(geometry),
           rect_(rect_of(view, bins.window)),
           by_bounds_(listing == Listing::bounds),
+          one_side_(listing == Listing::away),
           bins_(bins) {
         const gpu::Limits& limits = device.limits();
         const uint64_t cells = bins.grid.cell_count;
@@ -95,9 +96,11 @@ private:
         const uint32_t cells = bins_.grid.cell_count;
         recorder.fill("setup/prisms", block_counts_, 0);
         for (uint32_t cell = 0; cell < cells; ++cell) {
-            recorder.dispatch("setup/prisms", programs_.get("setup/prisms"),
+            recorder.dispatch("setup/prisms", programs_.get("setup/prisms", {one_side_}),
                               bindings({{"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                         {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                        {"shells", &geometry_.scene->shells, Texel::r32_uint},
+                                        {"closed", &geometry_.closed, Texel::r32_uint},
                                         {"Rects", &rects_, {}, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
                                         {"BlockCounts", &block_counts_}}),
                               shared::PrismParams{bins_.grid, cell, chunk.first, chunk.count, part_log2_, cell * parts_,
@@ -176,6 +179,7 @@ private:
     const Geometry& geometry_;
     WindowRect rect_;
     bool by_bounds_;
+    bool one_side_;
     Bins& bins_;
     uint32_t chunk_ = 0;      // Triangles whose rectangles are in memory at one time.
     uint32_t parts_ = 0;      // Of a chunk, in which blocks are counted.

@@ -25,6 +25,7 @@ struct Bins {
 enum class Listing {
     swept,   ///< Those that it can touch, in each orientation that it can have there.
     bounds,  ///< All that its bounds touch, once, not reversed.
+    away,    ///< As swept; of shells that count as closed only while it looks away from the view's eye.
 };
 
 /// Bins without lists: the view's vertices are projected. cell_count: a multiple of the segments.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "math/order.h"
+#include "scene/shells.hpp"
 #include "shared/params.h"
 #include "stages/grid.hpp"
 
@@ -37,6 +38,10 @@ void upload_surfaces(gpu::Device& device, const Scene& scene, SceneData& data) {
     for (const Triangle& t : scene.triangles) triangles.emplace_back(t.vertex[0], t.vertex[1], t.vertex[2], t.material);
     triangles.emplace_back(0u, 0u, 0u, 0u);
     data.triangles = gpu::upload_new(device, "triangles", triangles);
+    const Shells shells = find_shells(scene);
+    data.shells = gpu::upload_new(device, "shells", shells.of_triangle);
+    data.shell_triangles.assign(shells.count + 1, 0);
+    for (const uint32_t shell : shells.of_triangle) ++data.shell_triangles[shell];
 
     std::vector<glm::vec4> attributes;
     for (const Vertex& v : scene.vertices) {
@@ -118,6 +123,7 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, std::shared_ptr<
     uint64_t key_bytes = uint64_t(geometry.vertex_stride) * sizeof(glm::vec4);
     geometry.positions = device.allocate("positions", key_bytes * poses.size());
     geometry.normals = device.allocate("normals", key_bytes * poses.size());
+    geometry.closed = gpu::upload_new(device, "closed", std::vector<uint32_t>(data.shell_triangles.size()));
     std::vector<gpu::Buffer> palettes, weights;
     gpu::Recorder& recorder = device.recorder();
     const std::vector<VertexRun> runs = vertex_runs(device, geometry);
@@ -141,29 +147,39 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, std::shared_ptr<
     return geometry;
 }
 
-Bounds geometry_bounds(gpu::Device& device, Programs& programs, const Geometry& geometry, const Scene& scene,
-                       const std::vector<Pose>& poses) {
+GeometryBounds geometry_bounds(gpu::Device& device, Programs& programs, const Geometry& geometry, const Scene& scene,
+                               const std::vector<Pose>& poses) {
     struct Box {
         glm::uvec3 lower{0xffffffffu};
         glm::uvec3 upper{0};
         uint32_t not_finite = 0;
     };
-    const gpu::Buffer box = gpu::upload_new(device, "bounds", std::vector<Box>(1));
     const SceneData& data = *geometry.scene;
+    const gpu::Buffer buffer = gpu::upload_new(device, "bounds", std::vector<Box>(data.shell_triangles.size()));
     gpu::Recorder& recorder = device.recorder();
     recorder.dispatch("pose/bounds", programs.get("pose/bounds"),
                       bindings({{"triangles", &data.triangles, gpu::Texel::rgba32_uint},
+                                {"shells", &data.shells, gpu::Texel::r32_uint},
                                 {"positions", &geometry.positions, gpu::Texel::rgba32_float},
-                                {"Box", &box}}),
+                                {"Boxes", &buffer}}),
                       shared::BoundsParams{data.triangle_count, geometry.vertex_stride, geometry.segment_count + 1},
                       groups_of(data.triangle_count, 64 * shared::kBoundsRun));
-    const Box found = gpu::download_vector<Box>(device, box, 1)[0];
-    if (found.not_finite != 0) bounds_of(scene, poses);  // Which says where.
+    const std::vector<Box> boxes = gpu::download_vector<Box>(device, buffer, data.shell_triangles.size());
     const auto place = [](const glm::uvec3& ordered) {
         return glm::vec3(shared::from_ordered_bits(ordered.x), shared::from_ordered_bits(ordered.y),
                          shared::from_ordered_bits(ordered.z));
     };
-    return {place(found.lower), place(found.upper)};
+    GeometryBounds bounds;
+    Box all;
+    for (const Box& box : boxes) {
+        all.lower = glm::min(all.lower, box.lower);
+        all.upper = glm::max(all.upper, box.upper);
+        all.not_finite |= box.not_finite;
+        if (bounds.shells.size() < data.shell_count()) bounds.shells.push_back({place(box.lower), place(box.upper)});
+    }
+    if (all.not_finite != 0) bounds_of(scene, poses);  // Which says where.
+    bounds.all = {place(all.lower), place(all.upper)};
+    return bounds;
 }
 
 }  // namespace gnomon

@@ -15,6 +15,7 @@ struct SceneData {
     uint32_t triangle_count = 0;
     uint32_t vertex_count = 0;
     gpu::Buffer triangles;   ///< uvec4 (vertex 0, 1, 2, material); one more, degenerate, behind the last.
+    gpu::Buffer shells;      ///< uint per triangle: its shell (scene/shells.hpp); the number of shells where it has none.
     gpu::Buffer attributes;  ///< 2 vec4 per vertex: texture coordinates, colour.
     gpu::Buffer materials;   ///< 2 uvec4 per material: base colour; first texel, width, height, wrap modes.
     gpu::Buffer texels;      ///< RGBA8 words of all images.
@@ -22,8 +23,11 @@ struct SceneData {
     gpu::Buffer influences;
     gpu::Buffer morph_positions;
     gpu::Buffer morph_normals;
-    bool textured = false;  ///< A material has a texture.
-    bool smooth = false;    ///< A vertex has a normal.
+    bool textured = false;                  ///< A material has a texture.
+    bool smooth = false;                    ///< A vertex has a normal.
+    std::vector<uint32_t> shell_triangles;  ///< Of each shell; then of none.
+
+    uint32_t shell_count() const { return static_cast<uint32_t>(shell_triangles.size()) - 1; }
 };
 
 SceneData upload_scene(gpu::Device& device, const Scene& scene);
@@ -35,6 +39,7 @@ struct Geometry {
     uint32_t segment_count = 0;
     gpu::Buffer positions;  ///< vec4 per key and vertex, world space.
     gpu::Buffer normals;    ///< vec4 per key and vertex.
+    gpu::Buffer closed;     ///< uint per shell, and one for triangles of none: 1 where it counts as closed in this frame.
 };
 
 /// Vertices [first, first + count).
@@ -49,10 +54,16 @@ std::vector<VertexRun> vertex_runs(const gpu::Device& device, const Geometry& ge
 /// Run the pose stage at every key.
 Geometry pose_geometry(gpu::Device& device, Programs& programs, std::shared_ptr<const SceneData> scene,
                        const std::vector<Pose>& poses);
-/// The box of what triangles use, at all keys: bounds_of, on the device. Errors: as bounds_of, for positions that are not
+
+struct GeometryBounds {
+    Bounds all;
+    std::vector<Bounds> shells;
+};
+
+/// The boxes of what triangles use, at all keys: bounds_of, on the device. Errors: as bounds_of, for positions that are not
 /// finite.
-Bounds geometry_bounds(gpu::Device& device, Programs& programs, const Geometry& geometry, const Scene& scene,
-                       const std::vector<Pose>& poses);
+GeometryBounds geometry_bounds(gpu::Device& device, Programs& programs, const Geometry& geometry, const Scene& scene,
+                               const std::vector<Pose>& poses);
 /// Upload the scene first.
 Geometry pose_geometry(gpu::Device& device, Programs& programs, const Scene& scene, const std::vector<Pose>& poses);
 

@@ -50,7 +50,7 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     hit_total_ = gpu::upload_new(device, "hit_total", std::vector<uint32_t>(2));
     ticket_ = device.allocate("ticket", 4);
     asked_ = device.allocate("asked", settings.asks ? most_slots * sizeof(glm::vec4) : sizeof(glm::vec4));
-    asked_items_ = device.allocate("asked_items", settings.asks ? most_slots * 4 : 4);
+    asked_items_ = device.allocate("asked_items", settings.asks ? most_slots * sizeof(glm::uvec2) : sizeof(glm::uvec2));
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
@@ -98,6 +98,8 @@ std::vector<gpu::Binding> Sampler::hit_bindings(const LightSide& light) const {
             {"runs", &runs_, Texel::r32_uint},
             {"hits", &tracer_.hits(), Texel::r32_uint},
             {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
+            {"shells", &geometry_.scene->shells, Texel::r32_uint},
+            {"closed", &geometry_.closed, Texel::r32_uint},
             {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
             {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
             {"positions", &geometry_.positions, Texel::rgba32_float},
@@ -141,13 +143,19 @@ uint64_t Sampler::most_groups() const {
 
 void Sampler::ask(const LightSide& light, float tolerance) {
     std::vector<gpu::Binding> all = hit_bindings(light);
-    all.insert(all.end(), {{"Asked", &asked_}, {"AskedItems", &asked_items_}, {"Receivers", &light.asked->receivers()}});
+    all.insert(all.end(), {{"Asked", &asked_},
+                           {"AskedItems", &asked_items_},
+                           {"Receivers", &light.asked->receivers()},
+                           {"Lit", &lit_, {}, 0, settings_.most_slots * 4}});
     gpu::Recorder& recorder = device_.recorder();
+    if (!lit_written_) recorder.fill("sample/shadow", lit_, all_lit());
+    lit_written_ = true;
     recorder.fill("sample/ask", ticket_, 0);
-    recorder.dispatch_indirect("sample/ask",
-                               programs_.get("sample/ask", {light.view.orthographic, view_.orthographic, tracer_.straddle()}),
-                               all, shadow_params(light, {light.bins.grid.cell_count}, {0, light.bins.item_count()}, tolerance),
-                               shadow_groups_, 0, most_groups());
+    recorder.dispatch_indirect(
+        "sample/ask",
+        programs_.get("sample/ask", {light.view.orthographic, view_.orthographic, tracer_.straddle(), settings_.one_sided}),
+        all, shadow_params(light, {light.bins.grid.cell_count}, {0, light.bins.item_count()}, tolerance), shadow_groups_, 0,
+        most_groups());
 }
 
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
@@ -159,20 +167,25 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                            {"ShadowCounts", &shadow_counts_},
                            {"Iterators", &iterators_},
                            {"asked", &asked_, Texel::rgba32_float},
-                           {"asked_items", &asked_items_, Texel::r32_uint},
+                           {"asked_items", &asked_items_, Texel::rg32_uint},
                            {"page_of", light.asked ? &light.asked->page_of() : &asked_items_, Texel::r32_uint}});
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
     // The first pass over the queue writes every hit's word, later ones clear bits in it.
     const Window& window = light.bins.window;
     const bool whole =
         window.tile_count == tiles_across(light.view) * tiles_down(light.view) && band.item_count == light.map->item_count();
-    const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole && !light.asked;
+    const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole;
     gpu::Recorder& recorder = device_.recorder();
     if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
     lit_written_ = true;
     recorder.fill("sample/shadow", shadow_counts_, 0);
-    std::vector<uint32_t> constants = {light.view.orthographic, view_.orthographic, tracer_.straddle(),
-                                       settings_.count_ranges,  parts > 1,          first,
+    std::vector<uint32_t> constants = {light.view.orthographic,
+                                       view_.orthographic,
+                                       tracer_.straddle(),
+                                       settings_.one_sided,
+                                       settings_.count_ranges,
+                                       parts > 1,
+                                       first,
                                        light.asked != nullptr};
     const std::vector<uint32_t> own = light.map->test_constants();
     constants.insert(constants.end(), own.begin(), own.end());

@@ -32,6 +32,7 @@ struct SamplerSettings {
     uint64_t most_slots = 0;    ///< Of a batch.
     bool fractional = false;    ///< Visibility is a share, not a bit.
     bool asks = false;          ///< Hits ask for pages.
+    bool one_sided = false;     ///< Of closed shells the lights' lists hold only what looks away from the light.
     bool keep_depths = false;   ///< Each sample's depth, for batch_depths().
     bool count_ranges = false;  ///< Fill shadow_counts().
 };

@@ -72,8 +72,8 @@ public:
     /// maps without ranges. Fills all bands.
     virtual std::vector<uint32_t> texel_ranges(const std::vector<Band>& /*bands*/) { return {}; }
 
-    /// What the test reads, the number of the first element in memory, and specialization constants of its own: constant_id 7,
-    /// 8, ... (common/shadow_test.glsl).
+    /// What the test reads, the number of the first element in memory, and specialization constants of its own: constant_id 8,
+    /// 9, ... (common/shadow_test.glsl).
     virtual std::vector<gpu::Binding> read_bindings() const = 0;
     virtual uint32_t range_base() const { return 0; }
     virtual std::vector<uint32_t> test_constants() const { return {}; }

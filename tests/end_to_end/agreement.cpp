@@ -86,6 +86,7 @@ Agreement compare_samples(const Frame& frame, const Frame& reference, uint32_t s
         const bool lit = (frame.samples[test.sample].lit >> test.light & 1u) != 0;
         const Verdict verdict = judge.shadow(frame.samples[test.sample].triangle, test.light, lit, where(test.sample));
         if (verdict == Verdict::tolerance) ++result.shadow_tolerance;
+        if (verdict == Verdict::closer) ++result.shadow_closer;
         if (verdict != Verdict::wrong) continue;
         if (++result.shadow_wrong > 3) continue;
         name(test.sample);
@@ -101,7 +102,8 @@ std::ostream& operator<<(std::ostream& out, const Agreement& a) {
                << " %; coincident " << a.coincident << "; beyond rounding " << a.primary_wrong << " of " << a.primary_judged
                << " judged), depth error " << a.depth_error << "; shadow tests " << a.shadow_tests << ", differ "
                << a.shadow_differ << " (agree " << 100.0 * a.shadow_share() << " %; tolerance " << a.shadow_tolerance
-               << ", beyond rounding " << a.shadow_wrong << " of " << a.shadow_judged << " judged)\n"
+               << ", closer " << a.shadow_closer << ", beyond rounding " << a.shadow_wrong << " of " << a.shadow_judged
+               << " judged)\n"
                << a.first_wrong;
 }
 

@@ -20,6 +20,7 @@ struct Agreement {
     uint64_t shadow_judged = 0;
     uint64_t shadow_tolerance =
         0;  ///< Of those judged: exactly right by gnomon's least tolerance near the hit, where that is more than the hit's own.
+    uint64_t shadow_closer = 0;  ///< Of those judged: dark by what the reference's tolerance near the hit leaves out.
     uint64_t shadow_wrong = 0;
     double depth_error = 0.0;  ///< Largest relative difference of depth where both hit the same triangle.
     std::string first_wrong;   ///< What and where, for a person.

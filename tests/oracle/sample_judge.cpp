@@ -179,6 +179,7 @@ SampleJudge::Verdict SampleJudge::shadow(uint32_t triangle, uint32_t light, bool
     const double at_least = std::max(at_hit, std::ldexp(largest_coordinate_, -23));
     if (light_reaches(point, occluders, triangle, n, light, at_hit, sample.t) == lit) return Verdict::right;
     if (light_reaches(point, occluders, triangle, n, light, at_least, sample.t) == lit) return Verdict::tolerance;
+    if (!lit && !light_reaches(point, occluders, triangle, n, light, 0.0, sample.t)) return Verdict::closer;
     for (const double tolerance : {at_hit, at_least}) {
         for (int i = 0; i < 125; ++i) {
             const glm::dvec3 shift(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2);

@@ -28,6 +28,7 @@ public:
         right,      ///< What the exact test says.
         tie,        ///< Primary: another triangle of the same depth covers the sample (coincident surfaces).
         tolerance,  ///< Shadow: right with gnomon's least tolerance near the hit, not with the hit's own.
+        closer,     ///< Shadow: dark, by what lies between hit and light but nearer to the hit than the tolerance.
         border,     ///< Right for a sample or a hit within Rounding.
         wrong,
     };
@@ -44,7 +45,7 @@ public:
 
     /// Does the light reach the sample's hit on `triangle`? An occluder nearer to the hit, along its normal, than 2^-20 of the
     /// hit's largest coordinate does not count, one farther than that and than 2^-23 of the scene's does; in between the
-    /// verdict is `tolerance`.
+    /// verdict is `tolerance`; dark by a nearer one it is `closer`: where a mesh is known to be closed no tolerance is needed.
     Verdict shadow(uint32_t triangle, uint32_t light, bool lit, const SamplePoint& sample) const;
 
     /// Metres, of all poses.

@@ -35,7 +35,8 @@ protected:
             EXPECT_EQ(differing, 0u) << "of " << expected.size() << " vertices at key " << k;
             EXPECT_LT(worst, 1e-4 * largest);
         }
-        const Bounds bounds = geometry_bounds(device(), programs(), geometry, scene, poses), expected = bounds_of(scene, poses);
+        const Bounds bounds = geometry_bounds(device(), programs(), geometry, scene, poses).all,
+                     expected = bounds_of(scene, poses);
         EXPECT_EQ(bounds.lower, expected.lower);
         EXPECT_EQ(bounds.upper, expected.upper);
     }
@@ -68,7 +69,7 @@ TEST_F(PoseTest, BoundsHoldWhatTrianglesUse) {
         for (size_t k = 0; k < poses.size(); ++k)
             poses[k].palette = {{1, 0, 0, 0}, {0, 1, 0, -10.0f * static_cast<float>(k)}, {0, 0, 1, 0}};
         Geometry geometry = pose_geometry(device(), programs(), scene, poses);
-        const Bounds bounds = geometry_bounds(device(), programs(), geometry, scene, poses);
+        const Bounds bounds = geometry_bounds(device(), programs(), geometry, scene, poses).all;
         EXPECT_EQ(bounds.lower, glm::vec3(-4, -18, -6));
         EXPECT_EQ(bounds.upper, glm::vec3(1, 5, 3));
         poses[1].palette[2].w = std::numeric_limits<float>::infinity();

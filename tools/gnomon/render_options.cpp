@@ -100,6 +100,11 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
         o.settings.shadow_res = parse_count(text, name, 1, 16384);
     })->group(picture);
 
+    command
+        .add_flag("!--no-closed-meshes", o.settings.closed_meshes,
+                  "List both sides of closed meshes, too; the picture is the same but for rounding")
+        ->group(picture);
+
     add_parameters(command, o.settings.parameters);
 
     CLI::Option* shutter = add_parsed(command, "--shutter", "OPEN:CLOSE", "0:0.0208333", "Seconds on the animation clock",

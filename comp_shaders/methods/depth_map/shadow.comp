@@ -10,7 +10,7 @@
 #include "common/shadow_test.glsl"
 #include "common/bias.glsl"
 
-layout(constant_id = 9) const bool kMotion = false;
+layout(constant_id = 10) const bool kMotion = false;
 READ_FLOAT(16, map_samples)  // Depth in metres, and motion in metres per shutter.
 
 void main() {

@@ -12,15 +12,15 @@
 #include "math/footprint.h"
 #include "math/fssm.h"
 
-layout(constant_id = 9) const uint kTile = 8u;           // As in methods/fssm/window.glsl, and so are the next three.
-layout(constant_id = 10) const uint kWindow = 16u;
-layout(constant_id = 11) const uint kGrid = 16u;
-layout(constant_id = 12) const uint kLayers = 4u;
-layout(constant_id = 13) const uint kLevels = 5u;        // Of a layer's grid: the filter is widened through them. 1: it is not.
-layout(constant_id = 14) const bool kFootprint = true;   // Else the hit is a point in space and time.
-layout(constant_id = 15) const bool kTent = true;        // The filter along v.
-layout(constant_id = 16) const bool kNeighbours = true;  // Lookups near a tile's border may go to the neighbour.
-layout(constant_id = 17) const bool kViewsMove = false;  // The camera or the light.
+layout(constant_id = 10) const uint kTile = 8u;           // As in methods/fssm/window.glsl, and so are the next three.
+layout(constant_id = 11) const uint kWindow = 16u;
+layout(constant_id = 12) const uint kGrid = 16u;
+layout(constant_id = 13) const uint kLayers = 4u;
+layout(constant_id = 14) const uint kLevels = 5u;        // Of a layer's grid: the filter is widened through them. 1: it is not.
+layout(constant_id = 15) const bool kFootprint = true;   // Else the hit is a point in space and time.
+layout(constant_id = 16) const bool kTent = true;        // The filter along v.
+layout(constant_id = 17) const bool kNeighbours = true;  // Lookups near a tile's border may go to the neighbour.
+layout(constant_id = 18) const bool kViewsMove = false;  // The camera or the light.
 READ_VEC4(16, layers)
 READ_VEC4(17, tuples)
 READ_VEC4(18, view_keys)    // Per key: the camera's rows (x, y, metres) and origin, the light's (x, y, w) and origin.

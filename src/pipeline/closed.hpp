@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which shells count as closed in a frame.
+#pragma once
+
+#include "pipeline/view.hpp"
+#include "stages/pose.hpp"
+
+namespace gnomon {
+
+/// Of each shell 1 where neither the rays of the camera nor those of a spot can start in it during the shutter, else 0; then a
+/// 0 for the triangles of none: Geometry::closed.
+std::vector<uint32_t> closed_shells(const Scene& scene, const std::vector<Pose>& poses, const GeometryBounds& bounds,
+                                    const View& camera);
+
+/// May something in the box, all the time between two neighbouring keys or more, touch what the view's rays start on: its near
+/// plane as far as the image goes; where it has an eye, what lies between the two? If in doubt, yes.
+bool may_reach_eye(const Bounds& box, const View& view);
+
+}  // namespace gnomon
