@@ -21,7 +21,8 @@ bool lit_from_behind(ShadowTest test) { return test.reversed != test.light_rever
 
 // Depth from which on nothing of what is listed occludes the hit.
 float deepest(ShadowTest test) {
-    return !kOneSide ? test.limit : (lit_from_behind(test) ? 2.0 * test.depth - test.limit : test.depth);
+    float tolerance = test.depth - test.limit;
+    return !kOneSide ? test.limit : (lit_from_behind(test) ? test.depth + 8.0 * tolerance : test.depth);
 }
 
 // Does the triangle of a range occlude the hit?
