@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(All, OneSideOfScenes,
                              {"figure", [](const auto& p) { makers::make_figure(p); }, 1, 36},
                              {"pillars", [](const auto& p) { makers::make_pillars(p); }, 12},
                              {"tube", [](const auto& p) { makers::make_tube(p); }},
-                             {"crossing_quads", [](const auto& p) { makers::make_crossing_quads(p); }, 1, 4},
+                             {"crossing_quads", [](const auto& p) { makers::make_crossing_quads(p); }, 1, 6},
                          }),
                          [](const auto& tested) { return tested.param.name; });
 
