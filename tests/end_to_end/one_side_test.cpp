@@ -4,6 +4,7 @@
 
 #include <iostream>
 
+#include "methods/method.hpp"
 #include "scenes/scene_makers.hpp"
 #include "shapes.hpp"
 
@@ -234,6 +235,21 @@ TEST(OneSide, NotWhereTheNearPlaneCuts) {
     camera.znear = 0.01;
     camera.zfar = 4.4;
     expect_same_shadows(seen(camera, {place}), 2 * kBox + kSphere);
+}
+
+// Pictures of other methods depend on what is listed.
+TEST(OneSide, OfExactAlone) {
+    MovingTriangles scene = still_life(1);
+    scene.add(spot(0.6f), {at({-3.0, 4.0, 2.0}, {0.0, 0.5, 0.0})});
+    RenderSettings settings = small_settings(60, 45, 4, 128);
+    for (const Method& method : methods()) {
+        if (method.name == "exact") continue;
+        settings.method = method.name;
+        const Both both = render_both(scene, settings);
+        EXPECT_EQ(hash_of(both.all), hash_of(both.one)) << method.name;
+        EXPECT_EQ(both.one.stats.counts.at("closed_triangles"), 0u) << method.name;
+        EXPECT_EQ(both.all.stats.counts.at("bin_entries.0"), both.one.stats.counts.at("bin_entries.0")) << method.name;
+    }
 }
 
 TEST(OneSide, NotWhereASpotIsInside) {
