@@ -31,10 +31,11 @@ struct Agreement {
     double shadow_share() const {
         return shadow_tests > 0 ? 1.0 - static_cast<double>(shadow_differ) / static_cast<double>(shadow_tests) : 1.0;
     }
-    /// As if both had gnomon's least tolerance.
+    /// As if both had gnomon's least tolerance, and none where that is what gnomon does.
     double shadow_share_of_one_tolerance() const {
         const double same =
-            shadow_judged > 0 ? 1.0 - static_cast<double>(shadow_tolerance) / static_cast<double>(shadow_judged) : 1.0;
+            shadow_judged > 0 ? 1.0 - static_cast<double>(shadow_tolerance + shadow_closer) / static_cast<double>(shadow_judged)
+                              : 1.0;
         return 1.0 - (1.0 - shadow_share()) * same;
     }
 };

@@ -48,7 +48,8 @@ std::vector<SceneCase> asset_scenes() {
 
 class Exact : public testing::TestWithParam<SceneCase> {
 protected:
-    // At least 99.99 % of both kinds, and what differs is rounding.
+    // At least 99.99 % of both kinds, and what differs is rounding; where a closed mesh is edge-on to the light the reference's
+    // tolerance leaves out what gnomon need not.
     static void expect_agreement(uint32_t width, uint32_t height, const std::vector<uint32_t>& resolutions) {
         const SceneCase& c = GetParam();
         if (!c.make) GN_SKIP_WITHOUT_ASSETS();
@@ -68,7 +69,8 @@ protected:
             std::cout << c.name << ", shadow_res " << resolution << ", " << seconds << " s: " << agreement << std::endl;
             EXPECT_GT(agreement.shadow_tests, agreement.samples / 100);
             EXPECT_GE(agreement.primary_share(), 0.9999) << resolution;
-            EXPECT_GE(agreement.shadow_share(), 0.9999) << resolution;
+            EXPECT_GE(agreement.shadow_share(), 0.9998) << resolution;
+            EXPECT_GE(agreement.shadow_share_of_one_tolerance(), 0.99995) << resolution;
             EXPECT_EQ(agreement.primary_wrong, 0u) << resolution << "\n" << agreement.first_wrong;
             EXPECT_EQ(agreement.shadow_wrong, 0u) << resolution << "\n" << agreement.first_wrong;
             EXPECT_LT(agreement.depth_error, 1e-4) << resolution;

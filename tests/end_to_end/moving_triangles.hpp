@@ -17,7 +17,7 @@ struct PosedScene {
     std::vector<Pose> poses;
 };
 
-/// Each triangle has a palette matrix of its own.
+/// Triangles that are added one after the other and move alike have one palette matrix: shells hold together.
 struct MovingTriangles : PosedScene {
     explicit MovingTriangles(uint32_t segments) {
         poses.resize(segments + 1);
@@ -27,7 +27,8 @@ struct MovingTriangles : PosedScene {
 
     /// keys: the triangle's matrix at each key. Returns the triangle's index.
     uint32_t add(const Corners& corners, const std::vector<glm::mat4>& keys) {
-        const auto matrix = static_cast<uint32_t>(scene.triangles.size());
+        const bool moves_alike = keys == last_keys_;
+        const auto matrix = static_cast<uint32_t>(poses[0].palette.size() / 3) - (moves_alike ? 1 : 0);
         Triangle triangle;
         for (size_t i = 0; i < 3; ++i) {
             triangle.vertex[i] = static_cast<uint32_t>(scene.vertices.size());
@@ -39,11 +40,12 @@ struct MovingTriangles : PosedScene {
             scene.influences.push_back({matrix, 1.0f});
         }
         scene.triangles.push_back(triangle);
-        for (size_t k = 0; k < poses.size(); ++k) {
+        last_keys_ = keys;
+        for (size_t k = 0; k < poses.size() && !moves_alike; ++k) {
             const glm::mat4 rows = glm::transpose(keys[k]);
             poses[k].palette.insert(poses[k].palette.end(), {rows[0], rows[1], rows[2]});
         }
-        return matrix;
+        return static_cast<uint32_t>(scene.triangles.size()) - 1;
     }
 
     /// Moves by `motion` from the first key to the last, evenly.
@@ -64,6 +66,9 @@ struct MovingTriangles : PosedScene {
         scene.lights.push_back(light);
         for (size_t k = 0; k < poses.size(); ++k) poses[k].lights.push_back(keys[std::min(k, keys.size() - 1)]);
     }
+
+private:
+    std::vector<glm::mat4> last_keys_;  ///< Of the triangle that was added last.
 };
 
 }  // namespace gnomon::test

@@ -10,13 +10,18 @@
 
 namespace gnomon::test {
 
-/// The parallelogram a, a + u, a + u + v, a + v as two triangles, with texture coordinates (0, 0), (1, 0), (1, 1), (0, 1).
-inline void add_quad(MovingTriangles& scene, glm::vec3 a, glm::vec3 u, glm::vec3 v, glm::vec3 motion = glm::vec3(0.0f)) {
+/// A quadrangle as two triangles, with texture coordinates (0, 0), (1, 0), (1, 1), (0, 1).
+inline void add_face(MovingTriangles& scene, const std::array<glm::vec3, 4>& corners, glm::vec3 motion = glm::vec3(0.0f)) {
     const size_t first = scene.scene.vertices.size();
-    scene.add({a, a + u, a + u + v}, motion);
-    scene.add({a, a + u + v, a + v}, motion);
+    scene.add({corners[0], corners[1], corners[2]}, motion);
+    scene.add({corners[0], corners[2], corners[3]}, motion);
     const glm::vec2 uvs[] = {{0, 0}, {1, 0}, {1, 1}, {0, 0}, {1, 1}, {0, 1}};
     for (size_t i = 0; i < 6; ++i) scene.scene.vertices[first + i].uv = uvs[i];
+}
+
+/// The parallelogram a, a + u, a + u + v, a + v.
+inline void add_quad(MovingTriangles& scene, glm::vec3 a, glm::vec3 u, glm::vec3 v, glm::vec3 motion = glm::vec3(0.0f)) {
+    add_face(scene, {a, a + u, a + u + v, a + v}, motion);
 }
 
 /// The square |x|, |z| <= half_size at height y.
@@ -24,15 +29,19 @@ inline void add_floor(MovingTriangles& scene, float y, float half_size, glm::vec
     add_quad(scene, {-half_size, y, half_size}, {2 * half_size, 0, 0}, {0, 0, -2 * half_size}, motion);
 }
 
+/// Closed: its faces have the same corners to the bit.
 inline void add_box(MovingTriangles& scene, glm::vec3 centre, glm::vec3 half, glm::vec3 motion = glm::vec3(0.0f)) {
     for (int axis = 0; axis < 3; ++axis) {
         for (const float side : {-1.0f, 1.0f}) {
-            glm::vec3 out(0.0f), u(0.0f), v(0.0f);
-            out[axis] = side * half[axis];
-            u[(axis + 1) % 3] = 2.0f * half[(axis + 1) % 3];
-            v[(axis + 2) % 3] = 2.0f * half[(axis + 2) % 3];
-            const glm::vec3 corner = centre + out - 0.5f * (u + v);
-            side > 0.0f ? add_quad(scene, corner, u, v, motion) : add_quad(scene, corner, v, u, motion);
+            const auto corner = [&](float u, float v) {
+                glm::vec3 p = centre;
+                p[axis] += side * half[axis];
+                p[(axis + 1) % 3] += u * half[(axis + 1) % 3];
+                p[(axis + 2) % 3] += v * half[(axis + 2) % 3];
+                return p;
+            };
+            const float w = side;  // Of two sides one is gone round the other way.
+            add_face(scene, {corner(-1, -1), corner(w, -w), corner(1, 1), corner(-w, w)}, motion);
         }
     }
 }

@@ -86,6 +86,8 @@ TEST(SampleJudge, NearOccludersAreAMatterOfTolerance) {
         return shadow(scene_of({{half_plane(0.75f, 0.0f), {}}, {half_plane(0.75f, height), {}}}), lit, {12.0, 8.0, 0.0});
     };
     EXPECT_EQ(judged(4e-7f, true), Verdict::right);
+    EXPECT_EQ(judged(4e-7f, false), Verdict::closer);
+    EXPECT_EQ(judged(-4e-7f, false), Verdict::border);
     EXPECT_EQ(judged(6e-7f, false), Verdict::right);
     EXPECT_EQ(judged(6e-7f, true), Verdict::tolerance);
     EXPECT_EQ(judged(7e-6f, true), Verdict::tolerance);

@@ -89,6 +89,40 @@ TEST_F(BinTest, SmallestImages) {
     }
 }
 
+// Of a shell that counts as closed what looks away from the eye is listed where it is listed anyway, and nothing else; of all
+// others everything. A shell's triangles turn over as they move.
+TEST_F(BinTest, OfClosedShellsWhatLooksAwayIsListed) {
+    std::mt19937 random(15);
+    for (bool orthographic : {false, true}) {
+        Soup soup(2, 150, 77, orthographic);
+        soup.add_prisms(300, random);
+        const auto count = static_cast<uint32_t>(soup.triangles.size());
+        Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
+        auto data = std::make_shared<SceneData>(upload_scene(device(), soup.scene()));
+        std::vector<uint32_t> shells(count);
+        for (uint32_t i = 0; i < count; ++i) shells[i] = i % 3;
+        data->shells = gpu::upload_new(device(), "shells", shells);
+        geometry.scene = data;
+        geometry.closed = gpu::upload_new(device(), "closed", std::vector<uint32_t>{0, 1, 0});
+        const auto lists = [&](Listing listing) {
+            const Bins bins = bin_prisms(device(), programs(), geometry, soup.view(), 4, listing);
+            std::vector<std::vector<uint32_t>> found = read_bins(device(), bins);
+            for (auto& list : found) std::sort(list.begin(), list.end());
+            return found;
+        };
+        std::vector<std::vector<uint32_t>> expected = lists(Listing::swept);
+        size_t left_out = 0, away = 0;
+        for (auto& list : expected) {
+            left_out += std::erase_if(
+                list, [](uint32_t e) { return (e & shared::kReversed) != 0 && (e & ~shared::kReversed) % 3 == 1; });
+            away += std::count_if(list.begin(), list.end(), [](uint32_t e) { return e % 3 == 1; });
+        }
+        EXPECT_EQ(lists(Listing::away), expected);
+        EXPECT_GT(left_out, 100u);
+        EXPECT_GT(away, 100u);
+    }
+}
+
 // Cut into windows the view has the lists that it has whole.
 TEST_F(BinTest, ListsOfWindowsAreThoseOfTheView) {
     std::mt19937 random(14);

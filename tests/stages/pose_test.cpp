@@ -78,6 +78,51 @@ TEST_F(PoseTest, BoundsHoldWhatTrianglesUse) {
     }
 }
 
+// By hand: a tetrahedron and triangles of no shell take turns, then a long run of each.
+TEST_F(PoseTest, BoundsOfShells) {
+    Scene scene;
+    scene.morphs.emplace_back();
+    scene.materials.emplace_back();
+    const glm::vec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+    for (uint32_t shell = 0; shell < 3; ++shell) {
+        for (const glm::vec3& corner : corners) {
+            Vertex vertex;
+            vertex.position = corner + 10.0f * static_cast<float>(shell);
+            vertex.influence_first = static_cast<uint32_t>(scene.influences.size());
+            vertex.influence_count = 1;
+            scene.influences.push_back({0, 1.0f});
+            scene.vertices.push_back(vertex);
+        }
+    }
+    const uint32_t faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+    const auto add = [&](uint32_t shell, uint32_t face) {
+        const uint32_t* f = faces[face];
+        scene.triangles.push_back({{4 * shell + f[0], 4 * shell + f[1], 4 * shell + f[2]}, 0});
+    };
+    for (uint32_t face = 0; face < 4; ++face) {
+        add(1, face);
+        if (face < 3) add(0, face);  // It has a hole.
+    }
+    for (uint32_t i = 0; i < 500; ++i) add(0, 0);
+    for (uint32_t i = 0; i < 800; ++i) {
+        for (uint32_t face = 0; face < 4; ++face) add(2, face);
+    }
+    std::vector<Pose> poses(2);
+    for (size_t k = 0; k < poses.size(); ++k)
+        poses[k].palette = {{1, 0, 0, 0}, {0, 1, 0, -5.0f * static_cast<float>(k)}, {0, 0, 1, 0}};
+    const Geometry geometry = pose_geometry(device(), programs(), scene, poses);
+    EXPECT_EQ(geometry.scene->shell_triangles, (std::vector<uint32_t>{4, 3200, 503}));
+    const GeometryBounds bounds = geometry_bounds(device(), programs(), geometry, scene, poses);
+    ASSERT_EQ(bounds.shells.size(), 2u);
+    for (size_t shell = 0; shell < 2; ++shell) {
+        const float offset = 10.0f * static_cast<float>(shell + 1);
+        EXPECT_EQ(bounds.shells[shell].lower, glm::vec3(0, -5, 0) + offset);
+        EXPECT_EQ(bounds.shells[shell].upper, glm::vec3(1, 2, 3) + offset);
+    }
+    EXPECT_EQ(bounds.all.lower, glm::vec3(0, -5, 0));
+    EXPECT_EQ(bounds.all.upper, glm::vec3(21, 22, 23));
+}
+
 class PoseAssetsTest : public PoseTest {};
 
 TEST_F(PoseAssetsTest, SkinsAndMorphTargets) {

@@ -33,6 +33,7 @@ TEST(RenderOptions, DefaultsAreThoseOfTheContract) {
     EXPECT_EQ(options.settings.shadow_res, 1024u);
     EXPECT_EQ(options.settings.method, "exact");
     EXPECT_EQ(options.settings.memory_budget, 0u);
+    EXPECT_TRUE(options.settings.closed_meshes);
     EXPECT_EQ(options.shutter.open, 0.0);
     EXPECT_EQ(options.shutter.close, 0.0208333);
     EXPECT_EQ(options.fps, 24.0);
@@ -72,6 +73,7 @@ TEST(RenderOptions, EveryOptionArrives) {
                                          "-1",
                                          "--ground",
                                          "-2",
+                                         "--no-closed-meshes",
                                          "--validate"});
     EXPECT_EQ(options.exr, "a.exr");
     EXPECT_EQ(options.png, "a.png");
@@ -96,6 +98,7 @@ TEST(RenderOptions, EveryOptionArrives) {
     ASSERT_TRUE(options.ground);
     EXPECT_EQ(options.ground->height, -2.0f);
     EXPECT_TRUE(options.validate);
+    EXPECT_FALSE(options.settings.closed_meshes);
 }
 
 TEST(RenderOptions, StillIsOneFrame) {
