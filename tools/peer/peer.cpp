@@ -94,16 +94,23 @@ std::vector<std::vector<glm::vec3>> normals_of(const Scene& scene, const std::ve
 
 }  // namespace
 
-std::string name_of(const PeerBuild& build) {
-    static const char* const qualities[] = {"low", "medium", "high"};
-    return std::to_string(build.segments) + (build.segments == 1 ? " segment, " : " segments, ") +
-           qualities[static_cast<size_t>(build.quality)];
+std::string name_of(PeerQuality quality) {
+    static const char* const names[] = {"low", "medium", "high"};
+    return names[static_cast<size_t>(quality)];
 }
 
-std::string name_of(const PeerRays& rays) {
-    static const char* const calls[] = {"single rays", "packets of 8", "packets of 16", "streams"};
-    return std::string(calls[static_cast<size_t>(rays.calls)]) + (rays.order == RayOrder::pixels ? ", pixels" : ", strata");
+std::string name_of(RayCalls calls) {
+    static const char* const names[] = {"single", "packets of 8", "packets of 16", "stream"};
+    return names[static_cast<size_t>(calls)];
 }
+
+std::string name_of(RayOrder order) { return order == RayOrder::pixels ? "pixels" : "strata"; }
+
+std::string name_of(const PeerBuild& build) {
+    return std::to_string(build.segments) + (build.segments == 1 ? " segment, " : " segments, ") + name_of(build.quality);
+}
+
+std::string name_of(const PeerRays& rays) { return name_of(rays.calls) + ", " + name_of(rays.order); }
 
 std::vector<PeerBuild> peer_builds() {
     std::vector<PeerBuild> builds;
@@ -221,12 +228,11 @@ Frame Peer::trace(const PeerRays& rays) const {
     return frame;
 }
 
-double Peer::estimate_trace_seconds(const PeerRays& rays, uint32_t step) const {
-    std::vector<Channel> channels = empty_channels(impl_->lights.size(), impl_->pixel_count());
+double Peer::trace_part(const PeerRays& rays, uint32_t step, std::vector<Channel>& scratch) const {
+    if (scratch.empty()) scratch = empty_channels(impl_->lights.size(), impl_->pixel_count());
+    impl_->trace_tiles(rays, scratch, step);
     const uint32_t traced = (impl_->tile_count() + step - 1) / step;
-    Clock clock;
-    impl_->trace_tiles(rays, channels, step);
-    return clock.lap() * impl_->tile_count() / traced;
+    return static_cast<double>(traced) / impl_->tile_count();
 }
 
 Frame trace_peer(const Scene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build,

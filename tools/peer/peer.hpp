@@ -26,6 +26,9 @@ struct PeerRays {
     RayOrder order = RayOrder::pixels;
 };
 
+std::string name_of(PeerQuality quality);     ///< "low", "medium", "high"
+std::string name_of(RayCalls calls);          ///< "single", "packets of 8", "packets of 16", "stream"
+std::string name_of(RayOrder order);          ///< "pixels", "strata"
 std::string name_of(const PeerBuild& build);  ///< "8 segments, medium"
 std::string name_of(const PeerRays& rays);    ///< "packets of 16, pixels"
 
@@ -59,8 +62,9 @@ public:
     /// normal, do not count; Embree's BVH is not robust.
     Frame trace(const PeerRays& rays) const;
 
-    /// Seconds that trace would take, from every `step`th tile.
-    double estimate_trace_seconds(const PeerRays& rays, uint32_t step) const;
+    /// Trace every `step`th tile only. Returns their share of all tiles. scratch: for their pixels; made by the first call that
+    /// it is handed to, so that others can be timed without it.
+    double trace_part(const PeerRays& rays, uint32_t step, std::vector<Channel>& scratch) const;
 
 private:
     struct Impl;
