@@ -142,7 +142,7 @@ struct Peer::Impl {
           view(scene.cameras[settings.camera], motion_of(poses, &Pose::cameras, settings.camera),
                {settings.width, settings.height}),
           lights(lights_of(scene, poses)),
-          surface(scene, normals, motion.segment_count()),
+          surface(scene, normals),
           pose_seconds(clock.lap()),
           embree(motion,
                  {.least_segments = build.segments, .threads = settings.threads, .quality = embree_quality(build.quality)}),

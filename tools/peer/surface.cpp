@@ -47,10 +47,19 @@ glm::vec3 texture(const Image& image, Wrap wrap_u, Wrap wrap_v, glm::vec2 uv) {
                     glm::mix(texel_at(image, x0, y1), texel_at(image, x1, y1), f.x), f.y);
 }
 
-template <class Of>
-auto interpolated(const Triangle& triangle, const Hit& hit, Of of) {
-    return (1.0f - hit.u - hit.v) * of(triangle.vertex[0]) + hit.u * of(triangle.vertex[1]) + hit.v * of(triangle.vertex[2]);
-}
+// What a triangle's corners have, blended at a hit. In arrays of floats, which compilers can fetch as vectors.
+struct Corners {
+    Corners(const Triangle& triangle, float u, float v)
+        : a(size_t{3} * triangle.vertex[0]),
+          b(size_t{3} * triangle.vertex[1]),
+          c(size_t{3} * triangle.vertex[2]),
+          w(1.0f - u - v),
+          u_(u),
+          v_(v) {}
+    float blend(const float* values) const { return w * values[a] + u_ * values[b] + v_ * values[c]; }
+    size_t a, b, c;
+    float w, u_, v_;
+};
 
 }  // namespace
 
@@ -71,12 +80,11 @@ bool PeerLight::in_cone(const glm::vec3& to_light, float t) const {
     return glm::dot(to_light, motion_.at(t).rotation[2]) >= cos_outer_ * glm::length(to_light);
 }
 
-glm::vec3 PeerLight::arriving(const Hit& hit, const glm::vec3& normal) const {
-    if (!shadows()) return glm::vec3(0.0f);
-    const Placement place = motion_.at(hit.t);
+glm::vec3 PeerLight::arriving(const glm::vec3& point, float t, const glm::vec3& normal) const {
+    const Placement place = motion_.at(t);
     const glm::vec3& axis = place.rotation[2];
     if (directional()) return power_ * std::max(0.0f, glm::dot(normal, axis));
-    const glm::vec3 to_light = place.translation - hit.point;
+    const glm::vec3 to_light = place.translation - point;
     const float distance2 = glm::dot(to_light, to_light);
     if (distance2 == 0.0f) return glm::vec3(0.0f);
     const glm::vec3 direction = to_light / std::sqrt(distance2);
@@ -87,32 +95,94 @@ glm::vec3 PeerLight::arriving(const Hit& hit, const glm::vec3& normal) const {
     return power_ * (cone * cone * window / distance2 * std::max(0.0f, glm::dot(normal, direction)));
 }
 
-Surface::Surface(const Scene& scene, const std::vector<std::vector<glm::vec3>>& normals, uint32_t segment_count)
-    : scene_(scene), normals_(normals), segment_count_(segment_count) {}
-
-glm::vec3 Surface::albedo(const Hit& hit) const {
-    const Triangle& triangle = scene_.triangles[hit.triangle];
-    const Material& material = scene_.materials[triangle.material];
-    glm::vec3 albedo = glm::vec3(material.base_color) *
-                       interpolated(triangle, hit, [&](uint32_t i) { return glm::vec3(scene_.vertices[i].color); });
-    if (material.image >= 0) {
-        const glm::vec2 uv = interpolated(triangle, hit, [&](uint32_t i) { return scene_.vertices[i].uv; });
-        albedo *= texture(scene_.images[static_cast<size_t>(material.image)], material.wrap_u, material.wrap_v, uv);
+void PeerLight::add_arriving(const Hits& hits, uint32_t bit, const Vectors& normals, Vectors& sums) const {
+    if (!shadows()) return;
+    if (still_sun()) {
+        const glm::vec3 axis = motion_.at(0.0f).rotation[2], power = power_;
+        for (uint32_t i = 0; i < hits.count; ++i) {
+            const float cosine = normals.x[i] * axis.x + normals.y[i] * axis.y + normals.z[i] * axis.z;
+            const float share = (hits.lit[i] & bit) != 0 && cosine > 0.0f ? cosine : 0.0f;
+            sums.x[i] += power.x * share;
+            sums.y[i] += power.y * share;
+            sums.z[i] += power.z * share;
+        }
+        return;
     }
-    return albedo;
+    for (uint32_t i = 0; i < hits.count; ++i) {
+        if ((hits.lit[i] & bit) != 0) sums.set(i, sums.at(i) + arriving(hits.point.at(i), hits.t[i], normals.at(i)));
+    }
 }
 
-glm::vec3 Surface::normal(const Hit& hit) const {
-    if (normals_.empty()) return hit.normal;
-    const KeyTime when = key_time(hit.t, segment_count_);
-    const glm::vec3* first = normals_[when.segment].data();
-    const glm::vec3* last = normals_[when.segment + 1].data();
-    const glm::vec3 smooth =
-        interpolated(scene_.triangles[hit.triangle], hit, [&](uint32_t i) { return first[i] + when.s * (last[i] - first[i]); });
-    const float length2 = glm::dot(smooth, smooth);
-    if (length2 <= 1e-20f) return hit.normal;
-    const float scale = 1.0f / std::sqrt(length2);
-    return smooth * (glm::dot(smooth, hit.normal) < 0.0f ? -scale : scale);
+Surface::Surface(const Scene& scene, const std::vector<std::vector<glm::vec3>>& normals)
+    : scene_(scene), normals_(normals), textured_(false) {
+    for (const Material& material : scene.materials) {
+        base_colours_.emplace_back(material.base_color);
+        textured_ = textured_ || material.image >= 0;
+    }
+    const auto white = [](const Vertex& vertex) { return glm::vec3(vertex.color) == glm::vec3(1.0f); };
+    if (std::all_of(scene.vertices.begin(), scene.vertices.end(), white)) return;
+    colours_.reserve(scene.vertices.size());
+    for (const Vertex& vertex : scene.vertices) colours_.emplace_back(vertex.color);
+}
+
+void Surface::get_normals(const Hits& hits, Vectors& normals) const {
+    if (normals_.empty()) {
+        normals = hits.normal;
+        return;
+    }
+    const auto segment_count = static_cast<uint32_t>(normals_.size()) - 1;
+    const auto blend = [&](uint32_t i, const float* first, const float* last, float s) {
+        const Corners corners(scene_.triangles[hits.triangle[i]], hits.u[i], hits.v[i]);
+        const float x0 = corners.blend(first), y0 = corners.blend(first + 1), z0 = corners.blend(first + 2);
+        const float x = x0 + s * (corners.blend(last) - x0);
+        const float y = y0 + s * (corners.blend(last + 1) - y0);
+        const float z = z0 + s * (corners.blend(last + 2) - z0);
+        const float length2 = x * x + y * y + z * z;
+        const float side = x * hits.normal.x[i] + y * hits.normal.y[i] + z * hits.normal.z[i];
+        const bool smooth = length2 > 1e-20f;
+        const float scale = (side < 0.0f ? -1.0f : 1.0f) / std::sqrt(smooth ? length2 : 1.0f);
+        normals.x[i] = smooth ? x * scale : hits.normal.x[i];
+        normals.y[i] = smooth ? y * scale : hits.normal.y[i];
+        normals.z[i] = smooth ? z * scale : hits.normal.z[i];
+    };
+    if (segment_count == 1) {
+        const float *first = &normals_[0][0].x, *last = &normals_[1][0].x;
+        for (uint32_t i = 0; i < hits.count; ++i) blend(i, first, last, hits.t[i]);
+        return;
+    }
+    for (uint32_t i = 0; i < hits.count; ++i) {
+        const KeyTime when = key_time(hits.t[i], segment_count);
+        blend(i, &normals_[when.segment][0].x, &normals_[when.segment + 1][0].x, when.s);
+    }
+}
+
+void Surface::get_albedos(const Hits& hits, Vectors& albedos) const {
+    const float* base = &base_colours_[0].x;
+    for (uint32_t i = 0; i < hits.count; ++i) {
+        const size_t material = size_t{3} * scene_.triangles[hits.triangle[i]].material;
+        albedos.x[i] = base[material];
+        albedos.y[i] = base[material + 1];
+        albedos.z[i] = base[material + 2];
+    }
+    if (!colours_.empty()) {
+        const float* colours = &colours_[0].x;
+        for (uint32_t i = 0; i < hits.count; ++i) {
+            const Corners corners(scene_.triangles[hits.triangle[i]], hits.u[i], hits.v[i]);
+            albedos.x[i] *= corners.blend(colours);
+            albedos.y[i] *= corners.blend(colours + 1);
+            albedos.z[i] *= corners.blend(colours + 2);
+        }
+    }
+    if (!textured_) return;
+    for (uint32_t i = 0; i < hits.count; ++i) {
+        const Triangle& triangle = scene_.triangles[hits.triangle[i]];
+        const Material& material = scene_.materials[triangle.material];
+        if (material.image < 0 || hits.lit[i] == 0) continue;
+        const auto uv_of = [&](size_t corner) { return scene_.vertices[triangle.vertex[corner]].uv; };
+        const glm::vec2 uv = (1.0f - hits.u[i] - hits.v[i]) * uv_of(0) + hits.u[i] * uv_of(1) + hits.v[i] * uv_of(2);
+        albedos.set(i, albedos.at(i) *
+                           texture(scene_.images[static_cast<size_t>(material.image)], material.wrap_u, material.wrap_v, uv));
+    }
 }
 
 }  // namespace gnomon::peer

@@ -41,9 +41,7 @@ uint32_t even_bits(uint32_t bits) {
 
 }  // namespace
 
-Tracer::Tracer(const World& world) : world_(world), lit_counts_(kTileSize * kTileSize * world.lights.size()) {
-    hits_.reserve(kBatch);
-}
+Tracer::Tracer(const World& world) : world_(world), lit_counts_(kTileSize * kTileSize * world.lights.size()) {}
 
 void Tracer::trace(uint32_t x_px, uint32_t y_px, std::vector<Channel>& channels) {
     const PeerSettings& settings = world_.settings;
@@ -69,8 +67,12 @@ void Tracer::trace(uint32_t x_px, uint32_t y_px, std::vector<Channel>& channels)
 void Tracer::choose_samples() {
     const bool by_pixels = world_.rays.order == RayOrder::pixels;
     for (uint32_t i = 0; i < rays_.count; ++i) {
+        const Pixel& pixel = pixels_[next_slot_];
         slots_[i] = next_slot_;
         strata_[i] = next_stratum_;
+        x_px_[i] = pixel.x;
+        y_px_[i] = pixel.y;
+        hashes_[i] = pixel.hash;
         if (by_pixels) {
             if (++next_slot_ == pixels_.size()) {
                 next_slot_ = 0;
@@ -88,86 +90,125 @@ void Tracer::trace_primary() {
     choose_samples();
     const float length = shared::stratum_length(world_.settings.spp);
     for (uint32_t i = 0; i < rays_.count; ++i) {
-        const Pixel& pixel = pixels_[slots_[i]];
-        const glm::vec3 sample = shared::sample_point(pixel.hash, pixel.x, pixel.y, strata_[i], length);
+        const glm::vec3 sample = shared::sample_point(hashes_[i], x_px_[i], y_px_[i], strata_[i], length);
         x_[i] = sample.x;
         y_[i] = sample.y;
         rays_.time[i] = sample.z;
     }
     world_.view.aim(x_.data(), y_.data(), rays_);
     intersect(world_.scene, world_.rays.calls, rays_);
+    find_hits();
+    tally_.hits += hits_.count;
+}
 
-    hits_.clear();
+void Tracer::find_hits() {
+    Hits& hits = hits_;
+    for (uint32_t i = 0; i < rays_.count; ++i) {
+        const float x = rays_.ng_x[i], y = rays_.ng_y[i], z = rays_.ng_z[i];
+        const float side = x * rays_.dir_x[i] + y * rays_.dir_y[i] + z * rays_.dir_z[i];
+        const float scale = (side > 0.0f ? -1.0f : 1.0f) / std::sqrt(x * x + y * y + z * z);
+        hits.normal.x[i] = x * scale;
+        hits.normal.y[i] = y * scale;
+        hits.normal.z[i] = z * scale;
+        hits.point.x[i] = rays_.org_x[i] + rays_.tfar[i] * rays_.dir_x[i];
+        hits.point.y[i] = rays_.org_y[i] + rays_.tfar[i] * rays_.dir_y[i];
+        hits.point.z[i] = rays_.org_z[i] + rays_.tfar[i] * rays_.dir_z[i];
+    }
+    uint32_t count = 0;
     for (uint32_t i = 0; i < rays_.count; ++i) {
         if (rays_.geometry[i] == RTC_INVALID_GEOMETRY_ID) continue;
-        const glm::vec3 direction(rays_.dir_x[i], rays_.dir_y[i], rays_.dir_z[i]);
-        const glm::vec3 across(rays_.ng_x[i], rays_.ng_y[i], rays_.ng_z[i]);
-        const float scale = 1.0f / std::sqrt(glm::dot(across, across));
-        Hit hit;
-        hit.depth = rays_.tfar[i];
-        hit.point = glm::vec3(rays_.org_x[i], rays_.org_y[i], rays_.org_z[i]) + hit.depth * direction;
-        hit.normal = across * (glm::dot(across, direction) > 0.0f ? -scale : scale);
-        hit.u = rays_.u[i];
-        hit.v = rays_.v[i];
-        hit.t = rays_.time[i];
-        hit.triangle = rays_.triangle[i];
-        hit.slot = slots_[i];
-        hit.lit = 0;
-        hits_.push_back(hit);
+        if (count != i) {
+            hits.normal.set(count, hits.normal.at(i));
+            hits.point.set(count, hits.point.at(i));
+        }
+        hits.u[count] = rays_.u[i];
+        hits.v[count] = rays_.v[i];
+        hits.t[count] = rays_.time[i];
+        hits.depth[count] = rays_.tfar[i];
+        hits.triangle[count] = rays_.triangle[i];
+        hits.slot[count] = slots_[i];
+        hits.lit[count++] = 0;
     }
-    tally_.hits += hits_.size();
+    hits.count = count;
+}
+
+// Shadow rays of all hits, for a sun that stands still.
+uint32_t Tracer::aim_at_sun(const PeerLight& light) {
+    const glm::vec3 direction = light.direction({}, 0.0f);
+    const Hits& hits = hits_;
+    for (uint32_t i = 0; i < hits.count; ++i) {
+        const float x = hits.point.x[i], y = hits.point.y[i], z = hits.point.z[i];
+        const float speed =
+            std::abs(direction.x * hits.normal.x[i] + direction.y * hits.normal.y[i] + direction.z * hits.normal.z[i]);
+        rays_.org_x[i] = x;
+        rays_.org_y[i] = y;
+        rays_.org_z[i] = z;
+        rays_.dir_x[i] = direction.x;
+        rays_.dir_y[i] = direction.y;
+        rays_.dir_z[i] = direction.z;
+        rays_.tnear[i] = kNearShare * std::max(std::max(std::abs(x), std::abs(y)), std::abs(z)) / std::max(kLeastCosine, speed);
+        rays_.tfar[i] = std::numeric_limits<float>::infinity();
+        rays_.time[i] = hits.t[i];
+        shadowed_[i] = i;
+    }
+    return hits.count;
+}
+
+// Shadow rays of the hits that the light shines at.
+uint32_t Tracer::aim_at(const PeerLight& light) {
+    if (!light.shadows()) return 0;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < hits_.count; ++i) {
+        const glm::vec3 point = hits_.point.at(i), size = glm::abs(point);
+        const glm::vec3 direction = light.direction(point, hits_.t[i]);
+        if (!light.directional() && !light.in_cone(direction, hits_.t[i])) continue;
+        const float speed = std::max(kLeastCosine * glm::length(direction), std::abs(glm::dot(direction, hits_.normal.at(i))));
+        rays_.org_x[count] = point.x;
+        rays_.org_y[count] = point.y;
+        rays_.org_z[count] = point.z;
+        rays_.dir_x[count] = direction.x;
+        rays_.dir_y[count] = direction.y;
+        rays_.dir_z[count] = direction.z;
+        rays_.tnear[count] = kNearShare * std::max({size.x, size.y, size.z}) / speed;
+        rays_.tfar[count] = light.directional() ? std::numeric_limits<float>::infinity() : 1.0f;
+        rays_.time[count] = hits_.t[i];
+        shadowed_[count++] = i;
+    }
+    return count;
 }
 
 void Tracer::trace_shadows(uint32_t light_ix) {
     const Stopwatch stopwatch(tally_.shadow_seconds);
     const PeerLight& light = world_.lights[light_ix];
     const uint32_t bit = 1u << light_ix;
-    const float end = light.directional() ? std::numeric_limits<float>::infinity() : 1.0f;
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < hits_.size(); ++i) {
-        Hit& hit = hits_[i];
-        hit.lit |= bit;
-        if (!light.shadows()) continue;
-        const glm::vec3 direction = light.direction(hit.point, hit.t);
-        if (!light.directional() && !light.in_cone(direction, hit.t)) continue;
-        const glm::vec3 size = glm::abs(hit.point);
-        const float speed = std::max(kLeastCosine * (light.directional() ? 1.0f : glm::length(direction)),
-                                     std::abs(glm::dot(direction, hit.normal)));
-        rays_.org_x[count] = hit.point.x;
-        rays_.org_y[count] = hit.point.y;
-        rays_.org_z[count] = hit.point.z;
-        rays_.dir_x[count] = direction.x;
-        rays_.dir_y[count] = direction.y;
-        rays_.dir_z[count] = direction.z;
-        rays_.tnear[count] = kNearShare * std::max({size.x, size.y, size.z}) / speed;
-        rays_.tfar[count] = end;
-        rays_.time[count] = hit.t;
-        shadowed_[count++] = i;
-    }
-    rays_.count = count;
+    for (uint32_t i = 0; i < hits_.count; ++i) hits_.lit[i] |= bit;
+    rays_.count = light.still_sun() ? aim_at_sun(light) : aim_at(light);
     occluded(world_.scene, world_.rays.calls, rays_);
-    for (uint32_t i = 0; i < count; ++i) {
-        if (rays_.tfar[i] < 0.0f) hits_[shadowed_[i]].lit &= ~bit;
+    for (uint32_t i = 0; i < rays_.count; ++i) {
+        if (rays_.tfar[i] < 0.0f) hits_.lit[shadowed_[i]] &= ~bit;
     }
-    tally_.shadow_tests += count;
+    tally_.shadow_tests += rays_.count;
 }
 
 void Tracer::shade() {
     const Stopwatch stopwatch(tally_.shade_seconds);
     const size_t light_count = world_.lights.size();
-    for (const Hit& hit : hits_) {
-        Sum& sum = sums_[hit.slot];
+    world_.surface.get_normals(hits_, normals_);
+    world_.surface.get_albedos(hits_, albedos_);
+    std::fill_n(arriving_.x, hits_.count, 0.0f);
+    std::fill_n(arriving_.y, hits_.count, 0.0f);
+    std::fill_n(arriving_.z, hits_.count, 0.0f);
+    for (uint32_t light = 0; light < light_count; ++light) {
+        world_.lights[light].add_arriving(hits_, 1u << light, normals_, arriving_);
+    }
+    for (uint32_t i = 0; i < hits_.count; ++i) {
+        const uint32_t slot = hits_.slot[i];
+        Sum& sum = sums_[slot];
         ++sum.hits;
-        sum.depth += hit.depth;
-        if (hit.lit == 0) continue;
-        const glm::vec3 normal = world_.surface.normal(hit);
-        glm::vec3 arriving(0.0f);
-        for (size_t light = 0; light < light_count; ++light) {
-            if ((hit.lit >> light & 1u) == 0) continue;
-            ++lit_counts_[hit.slot * light_count + light];
-            arriving += world_.lights[light].arriving(hit, normal);
-        }
-        if (arriving != glm::vec3(0.0f)) sum.reflected += arriving * world_.surface.albedo(hit) * std::numbers::inv_pi_v<float>;
+        sum.depth += hits_.depth[i];
+        sum.reflected += arriving_.at(i) * albedos_.at(i) * std::numbers::inv_pi_v<float>;
+        for (size_t light = 0; light < light_count; ++light)
+            lit_counts_[slot * light_count + light] += hits_.lit[i] >> light & 1u;
     }
 }
 

@@ -49,7 +49,10 @@ private:
 
     void choose_samples();
     void trace_primary();
+    void find_hits();
     void trace_shadows(uint32_t light);
+    uint32_t aim_at_sun(const PeerLight& light);
+    uint32_t aim_at(const PeerLight& light);
     void shade();
     void write(std::vector<Channel>& channels) const;
 
@@ -59,10 +62,11 @@ private:
     std::vector<uint32_t> lit_counts_;
     uint32_t next_slot_ = 0, next_stratum_ = 0;
     Rays rays_;
-    std::array<float, kBatch> x_{}, y_{};
-    std::array<uint32_t, kBatch> slots_{}, strata_{};
-    std::vector<Hit> hits_;
+    std::array<uint32_t, kBatch> slots_{}, strata_{}, x_px_{}, y_px_{}, hashes_{};  ///< Of each ray.
+    std::array<float, kBatch> x_{}, y_{};                                           ///< Where its sample lies, in pixels.
+    Hits hits_;
     std::array<uint32_t, kBatch> shadowed_{};  ///< The hit of each shadow ray.
+    Vectors normals_, albedos_, arriving_;
     Tally tally_;
 };
 
