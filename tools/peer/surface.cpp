@@ -131,8 +131,9 @@ void Surface::get_normals(const Hits& hits, Vectors& normals) const {
         return;
     }
     const auto segment_count = static_cast<uint32_t>(normals_.size()) - 1;
-    const auto blend = [&](uint32_t i, const float* first, const float* last, float s) {
-        const Corners corners(scene_.triangles[hits.triangle[i]], hits.u[i], hits.v[i]);
+    const Triangle* const triangles = scene_.triangles.data();
+    const auto blend = [triangles, &hits, &normals](uint32_t i, const float* first, const float* last, float s) {
+        const Corners corners(triangles[hits.triangle[i]], hits.u[i], hits.v[i]);
         const float x0 = corners.blend(first), y0 = corners.blend(first + 1), z0 = corners.blend(first + 2);
         const float x = x0 + s * (corners.blend(last) - x0);
         const float y = y0 + s * (corners.blend(last + 1) - y0);
