@@ -144,8 +144,10 @@ struct Peer::Impl {
           lights(lights_of(scene, poses)),
           surface(scene, normals),
           pose_seconds(clock.lap()),
-          embree(motion,
-                 {.least_segments = build.segments, .threads = settings.threads, .quality = embree_quality(build.quality)}),
+          embree(motion, {.least_segments = build.segments,
+                          .threads = settings.threads,
+                          .quality = embree_quality(build.quality),
+                          .wide = true}),
           build_seconds(clock.lap()) {}
 
     uint32_t across() const { return (settings.width + kTileSize - 1) / kTileSize; }

@@ -19,7 +19,9 @@ bool stands_still(const SurfaceMotion& surface) {
 }  // namespace
 
 EmbreeScene::EmbreeScene(const SurfaceMotion& surface, const BuildSettings& settings) {
-    device_ = rtcNewDevice(("threads=" + std::to_string(settings.threads)).c_str());
+    std::string configuration = "threads=" + std::to_string(settings.threads);
+    if (settings.wide) configuration += ",frequency_level=simd512,hugepages=1";
+    device_ = rtcNewDevice(configuration.c_str());
     check("starting it");
     scene_ = rtcNewScene(device_);
     if (settings.robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);

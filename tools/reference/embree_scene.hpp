@@ -12,6 +12,7 @@ struct BuildSettings {
     uint32_t threads = 1;         ///< That build.
     bool robust = false;          ///< Rays do not slip through between triangles, and take longer.
     RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
+    bool wide = false;  ///< Embree may use AVX-512, at which some processors run slower, and huge pages.
     RTCFilterFunctionN occluded_filter = nullptr;  ///< Called for every candidate of a shadow ray.
 };
 
