@@ -36,8 +36,9 @@ std::string line(const Cells& cells) {
     return text + "\n";
 }
 
-// A table whose first column is left-aligned and the others right-aligned.
+// A table whose first column is left-aligned and the others right-aligned; nothing where there are no rows.
 std::string table(const std::string& title, const Cells& head, const std::vector<Cells>& rows) {
+    if (rows.empty()) return {};
     std::string text = "### " + title + "\n\n" + line(head) + "| --- |";
     for (size_t i = 1; i < head.size(); ++i) text += " ---: |";
     text += "\n";

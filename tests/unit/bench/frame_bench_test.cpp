@@ -156,6 +156,22 @@ TEST_F(FrameBench, GrowthCurve) {
     EXPECT_THAT(text_of(csv_file), HasSubstr("\nrandom-cubes@lights=8,lights,8,"));
 }
 
+TEST_F(FrameBench, ARefusedFrameKeepsEmbreesNumbers) {
+    const fs::path json_file = folder_ / "bench.json", markdown_file = folder_ / "bench.md", csv_file = folder_ / "bench.csv";
+    setenv("GNOMON_LIMITS", "buffer=16384", 1);
+    const int exit_code = exit_code_of("--scenes two-cubes --spp 1 --repeat 1 --scale 0.0625 --json " + json_file.string() +
+                                       " --markdown " + markdown_file.string() + " --csv " + csv_file.string());
+    unsetenv("GNOMON_LIMITS");
+    ASSERT_EQ(exit_code, 0);
+    const json bench = json::parse(text_of(json_file));
+    EXPECT_EQ(bench["benchmarks"][0]["error_occurred"], true);
+    EXPECT_THAT(bench["benchmarks"][0]["error_message"].get<std::string>(), HasSubstr("no memory"));
+    EXPECT_GT(bench["benchmarks"][1]["real_time"], 0.0);
+    EXPECT_THAT(text_of(markdown_file),
+                AllOf(HasSubstr("| two-cubes | 1 | - |"), HasSubstr("- two-cubes: no memory"), Not(HasSubstr("### Work"))));
+    EXPECT_THAT(text_of(csv_file), HasSubstr(",64,48,64,,,"));
+}
+
 TEST_F(FrameBench, ListsItsScenes) {
     ASSERT_EQ(exit_code_of("--help > " + (folder_ / "help").string()), 0);
     const std::string help = text_of(folder_ / "help");
