@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes of the benchmark, made on the spot.
+// The rows of the benchmark: scenes, made on the spot, and the frames that are made of them.
 #pragma once
 
+#include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,13 +13,33 @@ namespace gnomon::bench {
 
 using makers::PosedScene;
 
-/// In the order of the tables.
+struct BenchScene {
+    std::string name;
+    std::string group;   ///< One name for several scenes. That of growth curves is what grows.
+    double value = 0.0;  ///< On a growth curve: how much of it. 0: this is on none.
+    std::vector<uint32_t> spp = {8};
+    uint32_t width = 1024, height = 768;
+    uint32_t shadow_res = 1024;
+    uint32_t lights = 1;  ///< Suns are added up to this number.
+    uint32_t count = 0;   ///< What the maker makes, at full size.
+    uint32_t least = 1;   ///< What it allows.
+    std::function<void(const std::filesystem::path&, uint32_t count)> make;
+};
+
+/// All, in the order of the tables.
+const std::vector<BenchScene>& bench_scenes();
+
+/// What choose_scenes takes: names of scenes, of groups, and `growth` for all growth curves.
 std::vector<std::string> scene_names();
+
+inline constexpr const char* kDefaultScenes = "frames";
+
+/// In the order of the tables, each once. Errors: ErrorKind::usage for a name that is none of scene_names().
+std::vector<BenchScene> choose_scenes(const std::vector<std::string>& names);
 
 /// Make, load and pose a scene. scale, > 0: of the image's sides; the number of triangles goes with its square, within what the
 /// makers allow, so that triangles keep their size in pixels.
-/// Errors: ErrorKind::usage for a name that is none of scene_names(); ErrorKind::input where the folder for temporary files
-/// cannot be written.
-PosedScene make_scene(const std::string& name, double scale);
+/// Errors: ErrorKind::input where the folder for temporary files cannot be written.
+PosedScene make_scene(const BenchScene& scene, double scale);
 
 }  // namespace gnomon::bench

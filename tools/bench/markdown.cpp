@@ -24,8 +24,8 @@ std::string fixed(const std::optional<double>& value, int digits, double unit = 
     return value ? fixed(*value / unit, digits) : "-";
 }
 
-std::string spread(const Summary& summary, int digits) {
-    return fixed(summary.median, digits) + " (" + fixed(summary.min, digits) + " to " + fixed(summary.max, digits) + ")";
+std::string range(const Summary& summary, int digits) {
+    return fixed(summary.min, digits) + " to " + fixed(summary.max, digits);
 }
 
 std::string mebibytes(uint64_t bytes) { return fixed(static_cast<double>(bytes) / (1u << 20), 1); }
@@ -36,8 +36,9 @@ std::string line(const Cells& cells) {
     return text + "\n";
 }
 
-// A table whose first column is left-aligned and the others right-aligned.
+// A table whose first column is left-aligned and the others right-aligned; nothing where there are no rows.
 std::string table(const std::string& title, const Cells& head, const std::vector<Cells>& rows) {
+    if (rows.empty()) return {};
     std::string text = "### " + title + "\n\n" + line(head) + "| --- |";
     for (size_t i = 1; i < head.size(); ++i) text += " ---: |";
     text += "\n";
@@ -56,21 +57,65 @@ std::vector<Cells> for_each_row(const std::vector<Row>& rows, MakeCells make) {
     return result;
 }
 
+// Medians of both programs and their ratios, without spreads.
+Cells medians(const Row& row) {
+    const bool made = row.refusal.empty();
+    const auto of_gnomon = [&](const Summary& summary, int digits) { return made ? fixed(summary.median, digits) : "-"; };
+    return {of_gnomon(row.gnomon.wall, 3), fixed(row.embree.wall.median, 3), of_gnomon(row.ratio, 2),
+            of_gnomon(row.gnomon.cpu, 3),  fixed(row.embree.cpu.median, 3),  of_gnomon(row.cpu_ratio, 2)};
+}
+
+const Cells kMedians = {"gnomon, s", "Embree, s", "Embree / gnomon", "gnomon, CPU s", "Embree, CPU s", "ratio of CPU s"};
+
 std::string times_table(const std::vector<Row>& rows) {
-    return table("Whole frames",
-                 {"scene", "spp", "gnomon, s", "Embree, s", "segments", "Embree / gnomon", "gnomon, CPU s", "Embree, CPU s",
-                  "ratio of CPU s", "hits agree, %", "shadows agree, %"},
-                 for_each_row(rows, [](const Row& row) -> Cells {
-                     return {spread(row.gnomon.wall, 3),
-                             spread(row.embree.wall, 3),
-                             std::to_string(row.embree_segments),
-                             spread(row.ratio, 2),
-                             fixed(row.gnomon.cpu.median, 3),
-                             fixed(row.embree.cpu.median, 3),
-                             fixed(row.cpu_ratio.median, 2),
-                             fixed(100.0 * row.agreement.hit_share(), 4),
-                             fixed(100.0 * row.agreement.shadow_share(), 4)};
+    Cells head = {"scene", "spp"};
+    head.insert(head.end(), kMedians.begin(), kMedians.end());
+    const Cells rest = {"gnomon, least to most", "Embree, least to most", "ratio, least to most", "peer",
+                        "hits agree, %",         "shadows agree, %",      "peer's colour off, %", "peer's visibility off, %"};
+    head.insert(head.end(), rest.begin(), rest.end());
+    return table("Whole frames", head, for_each_row(rows, [](const Row& row) {
+                     const bool made = row.refusal.empty();
+                     Cells cells = medians(row);
+                     cells.push_back(made ? range(row.gnomon.wall, 3) : "-");
+                     cells.push_back(range(row.embree.wall, 3));
+                     cells.push_back(made ? range(row.ratio, 2) : "-");
+                     cells.push_back(name_of(row.build) + ", " + name_of(row.rays));
+                     cells.push_back(made ? fixed(100.0 * row.agreement.hit_share(), 4) : "-");
+                     cells.push_back(made ? fixed(100.0 * row.agreement.shadow_share(), 4) : "-");
+                     cells.push_back(fixed(100.0 * row.peer_errors.colour, 4));
+                     cells.push_back(fixed(100.0 * row.peer_errors.visibility, 4));
+                     return cells;
                  }));
+}
+
+// A table for each growth curve that has rows.
+std::string growth_tables(const std::vector<Row>& rows) {
+    std::string text;
+    std::vector<std::string> groups;
+    for (const Row& row : rows) {
+        if (row.value > 0.0 && std::find(groups.begin(), groups.end(), row.group) == groups.end()) groups.push_back(row.group);
+    }
+    for (const std::string& group : groups) {
+        Cells head = {"scene", group};
+        head.insert(head.end(), kMedians.begin(), kMedians.end());
+        std::vector<Cells> lines;
+        for (const Row& row : rows) {
+            if (row.group != group) continue;
+            Cells cells = medians(row);
+            cells.insert(cells.begin(), {row.scene.substr(0, row.scene.find('@')), fixed(growth_value(row), 0)});
+            lines.push_back(std::move(cells));
+        }
+        text += table("Growth with " + group, head, lines);
+    }
+    return text;
+}
+
+std::string refusals(const std::vector<Row>& rows) {
+    std::string text;
+    for (const Row& row : rows) {
+        if (!row.refusal.empty()) text += "- " + row.scene + ": " + row.refusal + "\n";
+    }
+    return text.empty() ? text : "Refused:\n\n" + text + "\n";
 }
 
 std::string work_table(const std::vector<Row>& rows) {
@@ -150,9 +195,14 @@ std::string to_markdown(const Context& context, const std::vector<Row>& rows) {
     const std::string heading = std::to_string(s.width) + "x" + std::to_string(s.height) + " pixels, light views of " +
                                 std::to_string(s.shadow_res) + " texels, " + std::to_string(s.threads) + " threads, " +
                                 std::to_string(s.repeat) + " pairs; " + context.device.name + ", " + context.device.driver +
-                                ". Medians (least to most).\n\n";
-    return heading + times_table(rows) + work_table(rows) + stages_table("Seconds per stage, gnomon", rows, &Row::gnomon) +
-           stages_table("Seconds per stage, Embree", rows, &Row::embree) + yardsticks_table(rows) + buffers_table(rows);
+                                ". Medians.\n\n";
+    std::vector<Row> made;
+    for (const Row& row : rows) {
+        if (row.refusal.empty()) made.push_back(row);
+    }
+    return heading + times_table(rows) + refusals(rows) + growth_tables(rows) + work_table(made) +
+           stages_table("Seconds per stage, gnomon", made, &Row::gnomon) +
+           stages_table("Seconds per stage, Embree", rows, &Row::embree) + yardsticks_table(made) + buffers_table(made);
 }
 
 }  // namespace gnomon::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One row of the benchmark: a scene at a number of samples, by gnomon and by the reference in turn.
+// One row of the benchmark: a scene at a number of samples, by gnomon and by Embree in turn.
 #pragma once
 
 #include <functional>
@@ -10,6 +10,7 @@
 
 #include "bench/bench_scenes.hpp"
 #include "bench/summary.hpp"
+#include "bench/trials.hpp"
 #include "bench/work.hpp"
 
 namespace gnomon::bench {
@@ -19,7 +20,7 @@ struct Settings {
     uint32_t height = 768;
     uint32_t shadow_res = 1024;
     uint32_t spp = 8;
-    uint32_t threads = 1;  ///< Of the reference, and of the device where it is a CPU.
+    uint32_t threads = 1;  ///< Of Embree, and of the device where it is a CPU.
     uint32_t repeat = 3;   ///< Pairs of timed frames, >= 1.
 };
 
@@ -31,34 +32,33 @@ struct Timing {
     Summary rest;                           ///< Wall seconds that lie in no stage: the host's, and waiting for the device.
 };
 
-/// The reference with Embree's motion in this many segments, tried once.
-struct Trial {
-    uint32_t segments = 1;
-    double wall_seconds = 0.0;
-};
-
 struct Row {
-    std::string scene;
+    std::string scene, group;
+    double value = 0.0;  ///< As BenchScene::value.
     Settings settings;
+    std::string refusal;  ///< Why gnomon made no frame; then there is none of its numbers and no ratio.
     Timing gnomon;
     Timing embree;
-    Summary ratio;      ///< The reference's wall seconds over gnomon's, pair by pair.
+    Summary ratio;      ///< Embree's wall seconds over gnomon's, pair by pair.
     Summary cpu_ratio;  ///< The same of CPU seconds.
     std::vector<Trial> trials;
-    uint32_t embree_segments = 1;  ///< Those of the faster trial.
-    FrameStats gnomon_stats;       ///< Bytes of a timed frame, counts of one that counts ranges.
+    PeerBuild build;          ///< Of the fastest trial.
+    PeerRays rays;            ///< Likewise.
+    FrameStats gnomon_stats;  ///< Bytes of a timed frame, counts of one that counts ranges.
     std::map<std::string, std::string> effective;
     FrameStats embree_stats;
     Work work;
-    Agreement agreement;
+    Agreement agreement;        ///< Of gnomon with the exact reference.
+    PictureErrors peer_errors;  ///< Of the peer against it.
 };
 
 /// Told what is about to run.
 using Notify = std::function<void(const std::string& what)>;
 
-/// Warm up, choose the reference's number of segments, time gnomon and the reference in turn, then run both once more for
-/// counts and for the samples that agree. Errors: those of Renderer::render and trace_reference.
-Row measure_row(Renderer& renderer, const std::string& name, const PosedScene& posed, const Settings& settings,
+/// Warm up, choose the fastest way to ask Embree, time gnomon and Embree in turn, then run gnomon once more for counts, and the
+/// exact reference for the samples that agree. Errors: those of Renderer::render, but for what does not fit into memory, and
+/// trace_reference.
+Row measure_row(Renderer& renderer, const BenchScene& scene, const PosedScene& posed, const Settings& settings,
                 const Notify& notify);
 
 }  // namespace gnomon::bench

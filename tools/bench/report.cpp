@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of a benchmark as JSON.
+// The rows of a benchmark as JSON and CSV.
 #include "bench/report.hpp"
 
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
 #include <gnomon/version.hpp>
+#include <sstream>
 #include <thread>
 
 namespace gnomon::bench {
@@ -71,32 +72,42 @@ Json summary_json(const Summary& summary) {
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
 
-// What the entries of both programs have.
-Json entry_json(const Row& row, const std::string& program, const Timing& timing, const FrameStats& stats) {
-    Json stages = Json::array();
-    for (const FrameStats::Stage& stage : timing.stages) {
-        stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"dispatches", stage.dispatches}});
-    }
+Json names_json(const Row& row, const std::string& program) {
     const Settings& s = row.settings;
     const std::string name = "frame/" + row.scene + "/spp:" + std::to_string(s.spp) + "/" + program;
     return {{"name", name},
             {"run_name", name},
             {"run_type", "iteration"},
             {"scene", row.scene},
+            {"group", row.group},
+            {"value", row.value > 0.0 ? Json(growth_value(row)) : Json(nullptr)},
             {"spp", s.spp},
+            {"width", s.width},
+            {"height", s.height},
+            {"shadow_res", s.shadow_res},
             {"program", program},
             {"threads", s.threads},
             {"repetitions", s.repeat},
-            {"iterations", 1},
-            {"real_time", timing.wall.median},
-            {"cpu_time", timing.cpu.median},
-            {"time_unit", "s"},
-            {"wall_seconds", summary_json(timing.wall)},
-            {"cpu_seconds", summary_json(timing.cpu)},
-            {"busy_share", timing.cpu.median / (timing.wall.median * s.threads)},
-            {"stages", stages},
-            {"rest_seconds", summary_json(timing.rest)},
-            {"counts", stats.counts}};
+            {"iterations", 1}};
+}
+
+// What the entries of both programs have.
+Json entry_json(const Row& row, const std::string& program, const Timing& timing, const FrameStats& stats) {
+    Json stages = Json::array();
+    for (const FrameStats::Stage& stage : timing.stages) {
+        stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"dispatches", stage.dispatches}});
+    }
+    Json entry = names_json(row, program);
+    entry.update({{"real_time", timing.wall.median},
+                  {"cpu_time", timing.cpu.median},
+                  {"time_unit", "s"},
+                  {"wall_seconds", summary_json(timing.wall)},
+                  {"cpu_seconds", summary_json(timing.cpu)},
+                  {"busy_share", timing.cpu.median / (timing.wall.median * row.settings.threads)},
+                  {"stages", stages},
+                  {"rest_seconds", summary_json(timing.rest)},
+                  {"counts", stats.counts}});
+    return entry;
 }
 
 Json work_json(const Work& work) {
@@ -113,6 +124,11 @@ Json work_json(const Work& work) {
 }
 
 Json gnomon_json(const Row& row) {
+    if (!row.refusal.empty()) {
+        Json entry = names_json(row, "gnomon");
+        entry.update({{"error_occurred", true}, {"error_message", row.refusal}});
+        return entry;
+    }
     Json entry = entry_json(row, "gnomon", row.gnomon, row.gnomon_stats);
     entry["effective"] = row.effective;
     entry["buffers"] = row.gnomon_stats.buffer_bytes;
@@ -127,17 +143,65 @@ Json gnomon_json(const Row& row) {
     return entry;
 }
 
+Json variant_json(const PeerBuild& build, const PeerRays& rays) {
+    return {{"segments", build.segments},
+            {"quality", name_of(build.quality)},
+            {"calls", name_of(rays.calls)},
+            {"order", name_of(rays.order)}};
+}
+
 Json embree_json(const Row& row) {
     Json entry = entry_json(row, "embree", row.embree, row.embree_stats);
-    entry["segments"] = row.embree_segments;
+    entry["peer"] = variant_json(row.build, row.rays);
     entry["trials"] = Json::array();
     for (const Trial& trial : row.trials) {
-        entry["trials"].push_back({{"segments", trial.segments}, {"wall_seconds", trial.wall_seconds}});
+        Json json = variant_json(trial.build, trial.rays);
+        json.update({{"whole", trial.whole}, {"wall_seconds", trial.seconds.wall}, {"cpu_seconds", trial.seconds.cpu}});
+        entry["trials"].push_back(std::move(json));
     }
+    entry["picture_errors"] = {{"colour", row.peer_errors.colour}, {"visibility", row.peer_errors.visibility}};
     return entry;
 }
 
+std::string csv_line(const Row& row) {
+    std::ostringstream line;
+    const auto add = [&](const auto& value) { line << ',' << value; };
+    line << row.scene;
+    add(row.group);
+    row.value > 0.0 ? add(growth_value(row)) : add("");
+    add(row.embree_stats.counts.at("triangles"));
+    add(row.settings.spp);
+    add(row.settings.width);
+    add(row.settings.height);
+    add(row.settings.shadow_res);
+    const bool made = row.refusal.empty();
+    made ? add(row.gnomon.wall.median) : add("");
+    made ? add(row.gnomon.cpu.median) : add("");
+    add(row.embree.wall.median);
+    add(row.embree.cpu.median);
+    add(row.build.segments);
+    add(name_of(row.build.quality));
+    add(name_of(row.rays.calls));
+    add(name_of(row.rays.order));
+    return line.str() + "\n";
+}
+
 }  // namespace
+
+double growth_value(const Row& row) {
+    if (row.group == "triangles") return static_cast<double>(row.embree_stats.counts.at("triangles"));
+    if (row.group == "samples") return row.settings.spp;
+    if (row.group == "texels") return row.settings.shadow_res;
+    return row.value;
+}
+
+std::string to_csv(const std::vector<Row>& rows) {
+    std::string text =
+        "scene,group,value,triangles,spp,width,height,shadow_res,gnomon_wall_s,gnomon_cpu_s,embree_wall_s,embree_cpu_s,"
+        "segments,quality,calls,order\n";
+    for (const Row& row : rows) text += csv_line(row);
+    return text;
+}
 
 Json to_json(const Context& context, const std::vector<Row>& rows) {
     Json json = {{"context", context_json(context, rows)}, {"benchmarks", Json::array()}};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cassert>
+#include <cmath>
 #include <gnomon/error.hpp>
 
 #include "math/sample.h"
@@ -79,6 +80,23 @@ Work work_of(const Frame& counted, const std::vector<FrameStats::Stage>& stages,
             static_cast<double>(work.light_entries) * shared::kTileTexels / 8.0 * kRasterYardstickNs * 1e-9 / threads;
     }
     return work;
+}
+
+PictureErrors errors_of(const Frame& frame, const Frame& reference) {
+    assert(frame.channels.size() == reference.channels.size());
+    double colour[2] = {}, visibility[2] = {};  // Difference, whole.
+    for (size_t c = 0; c < frame.channels.size(); ++c) {
+        const std::string& name = reference.channels[c].name;
+        const bool of_colour = name == "R" || name == "G" || name == "B";
+        if (!of_colour && !name.starts_with("visibility.")) continue;
+        double(&sums)[2] = of_colour ? colour : visibility;
+        const std::vector<float>&got = frame.channels[c].values, &expected = reference.channels[c].values;
+        for (size_t i = 0; i < expected.size(); ++i) {
+            sums[0] += std::abs(double{got[i]} - expected[i]);
+            sums[1] += expected[i];
+        }
+    }
+    return {ratio(colour[0], colour[1]).value_or(0.0), ratio(visibility[0], visibility[1]).value_or(0.0)};
 }
 
 Agreement agreement_of(const Frame& frame, const Frame& reference) {

@@ -56,6 +56,15 @@ struct Agreement {
     double shadow_share() const { return shadow_tests > 0 ? double(shadows_agree) / double(shadow_tests) : 1.0; }
 };
 
+/// What the peer's picture differs by: the mean over pixels of the difference, over the mean. 0 where both are 0.
+struct PictureErrors {
+    double colour = 0.0;      ///< Of R, G and B together.
+    double visibility = 0.0;  ///< Of all lights together.
+};
+
+/// Frames of the same scene and size.
+PictureErrors errors_of(const Frame& frame, const Frame& reference);
+
 /// Both frames hold the samples of the same settings.
 Agreement agreement_of(const Frame& frame, const Frame& reference);
 

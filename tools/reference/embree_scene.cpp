@@ -18,14 +18,16 @@ bool stands_still(const SurfaceMotion& surface) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const SurfaceMotion& surface, uint32_t least_segments, uint32_t threads,
-                         RTCFilterFunctionN occluded_filter) {
-    device_ = rtcNewDevice(("threads=" + std::to_string(threads)).c_str());
+EmbreeScene::EmbreeScene(const SurfaceMotion& surface, const BuildSettings& settings) {
+    std::string configuration = "threads=" + std::to_string(settings.threads);
+    if (settings.wide) configuration += ",frequency_level=simd512,hugepages=1";
+    device_ = rtcNewDevice(configuration.c_str());
     check("starting it");
     scene_ = rtcNewScene(device_);
-    rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    if (settings.robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_, settings.quality);
     try {
-        if (!surface.triangles().empty()) attach(surface, least_segments, occluded_filter);
+        if (!surface.triangles().empty()) attach(surface, settings);
         rtcCommitScene(scene_);
         check("building the BVH");
     } catch (...) {
@@ -49,9 +51,9 @@ void EmbreeScene::check(const char* doing) const {
     throw Error(ErrorKind::internal, "Embree error " + std::to_string(error), doing, "report this as a bug");
 }
 
-void EmbreeScene::attach(const SurfaceMotion& surface, uint32_t least_segments, RTCFilterFunctionN occluded_filter) {
+void EmbreeScene::attach(const SurfaceMotion& surface, const BuildSettings& settings) {
     // Embree's boxes are linear between its time steps; over a longer way they are wider than the triangles in them.
-    const uint32_t parts = (least_segments + surface.segment_count() - 1) / surface.segment_count();
+    const uint32_t parts = (settings.least_segments + surface.segment_count() - 1) / surface.segment_count();
     time_step_count_ = stands_still(surface) ? 1 : surface.segment_count() * parts + 1;
     if (time_step_count_ > RTC_MAX_TIME_STEP_COUNT) {
         throw Error(ErrorKind::usage,
@@ -78,7 +80,8 @@ void EmbreeScene::attach(const SurfaceMotion& surface, uint32_t least_segments, 
     }
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, surface.triangles().data(),
                                offsetof(Triangle, vertex), sizeof(Triangle), surface.triangles().size());
-    rtcSetGeometryOccludedFilterFunction(geometry, occluded_filter);
+    rtcSetGeometryBuildQuality(geometry, settings.quality);
+    if (settings.occluded_filter) rtcSetGeometryOccludedFilterFunction(geometry, settings.occluded_filter);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);

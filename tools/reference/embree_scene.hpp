@@ -2,19 +2,26 @@
 // Moving triangles as one Embree geometry, with its BVH.
 #pragma once
 
-#include <embree3/rtcore.h>
-
+#include "embree.hpp"
 #include "motion.hpp"
 
 namespace gnomon::reference {
 
+struct BuildSettings {
+    uint32_t least_segments = 1;  ///< Linear motion is split into the least multiple of the surface's segments that reaches it.
+    uint32_t threads = 1;         ///< That build.
+    bool robust = false;          ///< Rays do not slip through between triangles, and take longer.
+    RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
+    bool wide = false;  ///< Embree may use AVX-512, at which some processors run slower, and huge pages.
+    RTCFilterFunctionN occluded_filter = nullptr;  ///< Called for every candidate of a shadow ray.
+};
+
 /// Owns the Embree device and scene. Primitive id = triangle index.
 class EmbreeScene {
 public:
-    /// Build the BVH. Linear motion is split into the least multiple of the surface's segments that is >= least_segments.
-    /// occluded_filter is called for every candidate of a shadow ray. `surface` must outlive this.
+    /// Build the BVH. `surface` must outlive this.
     /// Errors: ErrorKind::usage for more segments than Embree has; ErrorKind::out_of_memory, internal as Embree reports them.
-    EmbreeScene(const SurfaceMotion& surface, uint32_t least_segments, uint32_t threads, RTCFilterFunctionN occluded_filter);
+    EmbreeScene(const SurfaceMotion& surface, const BuildSettings& settings);
     ~EmbreeScene();
     EmbreeScene(const EmbreeScene&) = delete;
     EmbreeScene& operator=(const EmbreeScene&) = delete;
@@ -24,7 +31,7 @@ public:
 
 private:
     void check(const char* doing) const;
-    void attach(const SurfaceMotion& surface, uint32_t least_segments, RTCFilterFunctionN occluded_filter);
+    void attach(const SurfaceMotion& surface, const BuildSettings& settings);
 
     RTCDevice device_ = nullptr;
     RTCScene scene_ = nullptr;

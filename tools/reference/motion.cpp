@@ -4,8 +4,38 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
+
+#include "math/pose.h"
 
 namespace gnomon::reference {
+namespace {
+
+// As long as the influences agree on it: of unit length for a rigid vertex.
+glm::vec3 posed_normal(const Scene& scene, const Pose& pose, const Vertex& vertex) {
+    const Morph& morph = scene.morphs[vertex.morph];
+    glm::vec3 rest = vertex.normal;
+    for (uint32_t j = 0; j < morph.target_count; ++j) {
+        const uint32_t delta = morph.delta_first + j * morph.vertex_count + vertex.morph_vertex;
+        rest = shared::morph_add(rest, scene.morph_normals[delta], pose.morph_weights[morph.weight_first + j]);
+    }
+    glm::vec3 sum(0.0f);
+    for (uint32_t i = 0; i < vertex.influence_count; ++i) {
+        const Influence& influence = scene.influences[vertex.influence_first + i];
+        const glm::vec4* rows = &pose.palette[influence.matrix * 3];
+        sum = shared::skin_add_normal(sum, rows[0], rows[1], rows[2], rest, influence.weight);
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<glm::vec3> posed_normals(const Scene& scene, const Pose& pose) {
+    std::vector<glm::vec3> normals;
+    normals.reserve(scene.vertices.size());
+    for (const Vertex& vertex : scene.vertices) normals.push_back(posed_normal(scene, pose, vertex));
+    return normals;
+}
 
 RigidMotion::RigidMotion(const std::vector<Rigid>& keys) {
     for (size_t k = 0; k + 1 < keys.size(); ++k) {
@@ -30,10 +60,14 @@ RigidMotion::Placement RigidMotion::at(KeyTime when) const {
     return placement;
 }
 
-SurfaceMotion::SurfaceMotion(const Scene& scene, const std::vector<Pose>& poses) : triangles_(scene.triangles) {
-    for (const Pose& pose : poses) {
-        keys_.push_back(posed_positions(scene, pose));
-        keys_.back().emplace_back(0.0f);
+SurfaceMotion::SurfaceMotion(const Scene& scene, const std::vector<Pose>& poses)
+    : triangles_(scene.triangles), keys_(poses.size()) {
+    std::vector<std::jthread> threads;
+    for (size_t k = 0; k < poses.size(); ++k) {
+        threads.emplace_back([&, k] {
+            keys_[k] = posed_positions(scene, poses[k]);
+            keys_[k].emplace_back(0.0f);
+        });
     }
 }
 

@@ -44,10 +44,13 @@ private:
     std::vector<Segment> segments_;
 };
 
+/// Of all vertices in one pose, of any length; zero where a vertex has none.
+std::vector<glm::vec3> posed_normals(const Scene& scene, const Pose& pose);
+
 /// All triangles between their keys: world positions linear.
 class SurfaceMotion {
 public:
-    /// The scene must outlive this.
+    /// Poses each key in a thread of its own. The scene must outlive this.
     SurfaceMotion(const Scene& scene, const std::vector<Pose>& poses);
 
     uint32_t segment_count() const { return static_cast<uint32_t>(keys_.size()) - 1; }

@@ -154,7 +154,10 @@ Frame trace_reference(const Scene& scene, const std::vector<Pose>& poses, const 
     std::optional<Shading> shading;
     if (settings.exact) shading.emplace(scene, poses);
     const double pose_seconds = clock.lap();
-    const EmbreeScene embree(surface, settings.embree_segments, thread_count, reject_near_occluders);
+    const EmbreeScene embree(surface, {.least_segments = settings.embree_segments,
+                                       .threads = thread_count,
+                                       .robust = true,
+                                       .occluded_filter = reject_near_occluders});
     const double build_seconds = clock.lap();
 
     const CameraView camera(scene.cameras[settings.camera], motion_of(poses, &Pose::cameras, settings.camera),

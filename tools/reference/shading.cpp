@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "math/pose.h"
-
 namespace gnomon::reference {
 namespace {
 
@@ -66,23 +64,6 @@ auto interpolated(const Triangle& triangle, const Hit& hit, Of of) {
     return (1.0 - u - v) * of(triangle.vertex[0]) + u * of(triangle.vertex[1]) + v * of(triangle.vertex[2]);
 }
 
-// As long as the influences agree on it: of unit length for a rigid vertex.
-glm::vec3 posed_normal(const Scene& scene, const Pose& pose, const Vertex& vertex) {
-    const Morph& morph = scene.morphs[vertex.morph];
-    glm::vec3 rest = vertex.normal;
-    for (uint32_t j = 0; j < morph.target_count; ++j) {
-        const uint32_t delta = morph.delta_first + j * morph.vertex_count + vertex.morph_vertex;
-        rest = shared::morph_add(rest, scene.morph_normals[delta], pose.morph_weights[morph.weight_first + j]);
-    }
-    glm::vec3 sum(0.0f);
-    for (uint32_t i = 0; i < vertex.influence_count; ++i) {
-        const Influence& influence = scene.influences[vertex.influence_first + i];
-        const glm::vec4* rows = &pose.palette[influence.matrix * 3];
-        sum = shared::skin_add_normal(sum, rows[0], rows[1], rows[2], rest, influence.weight);
-    }
-    return sum;
-}
-
 }  // namespace
 
 TracedLight::TracedLight(const Light& light, RigidMotion motion)
@@ -115,11 +96,7 @@ TracedLight::Arriving TracedLight::arriving(const Hit& hit) const {
 }
 
 Shading::Shading(const Scene& scene, const std::vector<Pose>& poses) : scene_(scene) {
-    for (const Pose& pose : poses) {
-        std::vector<glm::vec3>& normals = normals_.emplace_back();
-        normals.reserve(scene.vertices.size());
-        for (const Vertex& vertex : scene.vertices) normals.push_back(posed_normal(scene, pose, vertex));
-    }
+    for (const Pose& pose : poses) normals_.push_back(posed_normals(scene, pose));
 }
 
 glm::dvec3 Shading::albedo(const Hit& hit) const {

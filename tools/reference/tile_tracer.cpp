@@ -60,9 +60,9 @@ void set_ray(Rays& rays, uint32_t lane, const glm::dvec3& origin, const glm::dve
     rays.flags[lane] = 0;
 }
 
-// A packet of shadow rays. Embree hands the context back to the filter, so it comes first.
+// A packet of shadow rays. Embree hands the query back to the filter, so it comes first.
 struct ShadowPacket {
-    RTCIntersectContext context;
+    RayQuery query;
     const SurfaceMotion* surface;
     const Hit* hits;
     bool exact;
@@ -147,10 +147,9 @@ void TileTracer::trace_packet(uint32_t packet, uint32_t s) {
         set_ray(query.ray, lane, rays[lane].origin, rays[lane].direction, world_.camera.near_depth(), world_.camera.far_depth(),
                 sample.z);
     }
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    rtcIntersect8(valid, world_.embree.scene(), &context, &query);
+    RayQuery coherent;
+    init(coherent, true);
+    intersect(valid, world_.embree.scene(), coherent, query);
 
     for (uint32_t lane = 0; lane < kLanes; ++lane) {
         if (query.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID) continue;
@@ -179,8 +178,7 @@ void TileTracer::trace_shadows(size_t light_ix) {
     const TracedLight& light = world_.lights[light_ix];
     const uint32_t light_bit = 1u << light_ix;
     ShadowPacket packet;
-    rtcInitIntersectContext(&packet.context);
-    packet.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    init(packet.query, true);
     packet.surface = &world_.surface;
     packet.exact = settings_.exact;
     packet.end = light.kind() == LightKind::directional ? std::numeric_limits<double>::infinity() : 1.0;
@@ -202,7 +200,7 @@ void TileTracer::trace_shadows(size_t light_ix) {
         }
         if (valid_count == 0) continue;
         tally_.shadow_tests += valid_count;
-        rtcOccluded8(valid, world_.embree.scene(), &packet.context, &rays);
+        occluded(valid, world_.embree.scene(), packet.query, rays);
         for (uint32_t lane = 0; lane < kLanes; ++lane) {
             if (valid[lane] != 0 && rays.tfar[lane] < 0.0f) hits_[first + lane].lit &= ~light_bit;
         }

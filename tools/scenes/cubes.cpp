@@ -36,6 +36,7 @@ void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptio
     require_range("speed_min", options.speed_min, 0.0, options.speed_max);
     require_range("height", options.height, 0.0, 1e4);
     require_range("ground", options.ground, 0.1, 100.0);
+    require_range("times", options.times, 0.0, 100.0);
 
     // A cube's mean silhouette is 1.5 size^2 and its mean width about 1.3 size; of its path pi / 4 is seen on average. Cubes
     // with three times the picture's area together cover about 1 - exp(-3) of it where they lie at random, less toward its
@@ -60,7 +61,7 @@ void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptio
     for (uint32_t i = 0; i < options.count; ++i) {
         // The middle of the first shutter is where the cube is placed.
         const Vec3 center{rng.in(-half.x, half.x), rng.in(-half.y, half.y), rng.in(-half.z, half.z)};
-        const Vec3 velocity = rng.direction() * rng.in(options.speed_min, options.speed_max);
+        const Vec3 velocity = rng.direction() * (options.times * rng.in(options.speed_min, options.speed_max));
         const Vec3 axis = rng.direction();
         const double start_angle = rng.in(0.0, 2.0 * kPi), turn = rng.in(0.2, 1.2);
 

@@ -32,11 +32,12 @@ make_scenes all -o FOLDER              writes the scenes of the scenes folder
   chess          --triangles N (160000)  --moving PIECES (9)  --seed S (0)  --fill-light yes|no (no)
   two-cubes      --triangles N of each cube (6000)  --ground METRES (28)
   random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
-                 --height METRES of their space (0: by number, size and speed)  --ground HEIGHTS (4)
+                 --height METRES of their space (0: by number, size and speed)  --ground HEIGHTS (4)  --times FACTOR on the speed, in the same space (1)
   pillars        --columns N (7)  --rising yes|no (no)
   crossing-quads
   receding-quads
-  tube           --triangles N (70000)  --pixels P (10)
+  tube           --triangles N (70000)  --pixels P (10)  --ground METRES (8)
+  stadium        --triangles N of the body (30000)  --motion METRES per shutter (0.3)
 )";
 
 template <class T>
@@ -148,6 +149,7 @@ void run(const std::string& scene, Options options) {
         options.take("--size", o.size);
         options.take("--height", o.height);
         options.take("--ground", o.ground);
+        options.take("--times", o.times);
         if (const std::string speed = options.take_text("--speed"); !speed.empty()) {
             const std::size_t colon = speed.find(':');
             if (colon == std::string::npos) throw Error(ErrorKind::usage, "not MIN:MAX: '" + speed + "'", "--speed", "");
@@ -168,7 +170,13 @@ void run(const std::string& scene, Options options) {
         makers::TubeOptions o;
         options.take("--triangles", o.triangles);
         options.take("--pixels", o.pixels);
+        options.take("--ground", o.ground);
         make = [=] { makers::make_tube(output, o); };
+    } else if (scene == "stadium") {
+        makers::StadiumOptions o;
+        options.take("--triangles", o.triangles);
+        options.take("--motion", o.motion);
+        make = [=] { makers::make_stadium(output, o); };
     } else if (scene == "all") {
         make = [=] { makers::make_all(output); };
     } else {

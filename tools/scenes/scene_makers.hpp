@@ -87,6 +87,7 @@ struct RandomCubesOptions {
     /// so that they cover about the same share of the picture.
     double height = 0.0;
     double ground = 4.0;  ///< Side, in heights of that space, 0.1 to 100. The light's view holds it all.
+    double times = 1.0;   ///< The speeds that they really have, over those from which the space follows; 0 to 100.
 };
 void make_random_cubes(const std::filesystem::path& path, const RandomCubesOptions& options = {});
 
@@ -102,8 +103,17 @@ void make_pillars(const std::filesystem::path& path, const PillarsOptions& optio
 struct TubeOptions {
     uint32_t triangles = 70000;  ///< Of the tube, within 5 %; 1,000 to 2,000,000.
     double pixels = 10.0;        ///< How far it moves in a shutter, on average, in a picture of 1024x768; 0 to 200.
+    double ground = 8.0;         ///< Side, 1 to 1,000 metres. The light's view holds it all.
 };
 void make_tube(const std::filesystem::path& path, const TubeOptions& options = {});
+
+/// A finely tessellated vase, 1 m high, slides over a ground of 200 m. The light's view holds it all: of 1024 texels the vase
+/// takes 5.
+struct StadiumOptions {
+    uint32_t triangles = 30000;  ///< Of the vase, within 5 %; 1,000 to 4,000,000.
+    double motion = 0.3;         ///< Metres in a shutter, 0 to 10.
+};
+void make_stadium(const std::filesystem::path& path, const StadiumOptions& options = {});
 
 /// Two level quads over a plane, at two heights, that fly past each other at right angles: three times their side in a shutter.
 void make_crossing_quads(const std::filesystem::path& path);

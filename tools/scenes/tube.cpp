@@ -43,8 +43,9 @@ Mesh tube_mesh(uint32_t triangles) {
 void make_tube(const std::filesystem::path& path, const TubeOptions& options) {
     require_range("triangles", options.triangles, 1000, 2e6);
     require_range("pixels", options.pixels, 0.0, 200.0);
+    require_range("ground", options.ground, 1.0, 1e3);
     GltfWriter writer("tube");
-    add_ground(writer, 4.0, 0.0, from_srgb(200, 204, 204));
+    add_ground(writer, 0.5 * options.ground, 0.0, from_srgb(200, 204, 204));
 
     const Mesh mesh = tube_mesh(options.triangles);
     const Primitive primitive{&mesh, writer.add_material("tube", {})};

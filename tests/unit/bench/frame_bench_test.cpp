@@ -15,7 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
 
 int exit_code_of(const std::string& arguments) {
     const int status = std::system((std::string(GNOMON_FRAME_BENCH) + " " + arguments).c_str());
@@ -60,17 +63,29 @@ void expect_entry(const json& entry, const std::string& program) {
     EXPECT_EQ(entry["counts"]["samples"], 64 * 48);
 }
 
+void expect_peer_is_the_fastest(const json& embree) {
+    const json* fastest = nullptr;
+    for (const json& trial : embree["trials"]) {
+        EXPECT_GT(trial["wall_seconds"], 0.0);
+        EXPECT_GT(trial["cpu_seconds"], 0.0);
+        if (trial["whole"] && (!fastest || trial["cpu_seconds"] < (*fastest)["cpu_seconds"])) fastest = &trial;
+    }
+    ASSERT_TRUE(fastest);
+    for (const char* part : {"segments", "quality", "calls", "order"})
+        EXPECT_EQ(embree["peer"][part], (*fastest)[part]) << part;
+}
+
 TEST_F(FrameBench, SmallestFrame) {
-    const fs::path json_file = folder_ / "bench.json", markdown_file = folder_ / "bench.md";
+    const fs::path json_file = folder_ / "bench.json", markdown_file = folder_ / "bench.md", csv_file = folder_ / "bench.csv";
     ASSERT_EQ(exit_code_of("--scenes two-cubes --spp 1 --repeat 1 --scale 0.0625 --threads 2 --json " + json_file.string() +
-                           " --markdown " + markdown_file.string()),
+                           " --markdown " + markdown_file.string() + " --csv " + csv_file.string()),
               0);
 
     const json bench = json::parse(text_of(json_file));
     const json& context = bench["context"];
     expect_members(context, {"date", "num_cpus", "cpu", "load_avg", "library_build_type", "device", "device_type", "driver"});
     expect_members(context["versions"], {"gnomon", "compiler"});
-    EXPECT_THAT(context["versions"]["embree"].get<std::string>(), HasSubstr("Embree 3"));
+    EXPECT_THAT(context["versions"]["embree"].get<std::string>(), HasSubstr("Embree "));
     EXPECT_EQ(context["width"], 64);
     EXPECT_EQ(context["height"], 48);
     EXPECT_EQ(context["shadow_res"], 64);
@@ -103,16 +118,65 @@ TEST_F(FrameBench, SmallestFrame) {
     EXPECT_GT(gnomon["agreement"]["hits"], 0.99);
     EXPECT_GT(gnomon["agreement"]["shadows"], 0.99);
 
-    ASSERT_EQ(embree["trials"].size(), 2u);
-    const json& faster = embree["trials"][embree["trials"][0]["wall_seconds"] <= embree["trials"][1]["wall_seconds"] ? 0 : 1];
-    EXPECT_EQ(embree["segments"], faster["segments"]);
-    EXPECT_EQ(embree["counts"]["time_steps"], embree["segments"].get<int>() + 1);
+    // Builds with 1 and 8 segments in three qualities, each way to ask in two orders; then the best three whole.
+    const size_t calls = context["versions"]["embree"].get<std::string>().starts_with("Embree 3") ? 4 : 3;
+    ASSERT_EQ(embree["trials"].size(), 6 * 2 * calls + 3);
+    expect_peer_is_the_fastest(embree);
+    EXPECT_EQ(embree["counts"]["time_steps"], embree["peer"]["segments"].get<int>() + 1);
+    EXPECT_LT(embree["picture_errors"]["colour"], 1e-3);
+    EXPECT_LT(embree["picture_errors"]["visibility"], 1e-2);
 
     const std::string markdown = text_of(markdown_file);
     for (const char* part : {"### Whole frames", "### Work", "### Seconds per stage, gnomon", "sample/trace", "### Yardsticks",
                              "| two-cubes | 1 |", "### Largest buffers"}) {
         EXPECT_THAT(markdown, HasSubstr(part));
     }
+    EXPECT_THAT(markdown, Not(HasSubstr("Growth")));
+    const std::string csv = text_of(csv_file);
+    EXPECT_THAT(csv, StartsWith("scene,group,value,triangles,spp,"));
+    EXPECT_THAT(csv, HasSubstr("\ntwo-cubes,frames,,"));
+}
+
+TEST_F(FrameBench, GrowthCurve) {
+    const fs::path json_file = folder_ / "bench.json", markdown_file = folder_ / "bench.md", csv_file = folder_ / "bench.csv";
+    ASSERT_EQ(exit_code_of("--scenes lights --spp 2 --repeat 1 --scale 0.03125 --threads 2 --json " + json_file.string() +
+                           " --markdown " + markdown_file.string() + " --csv " + csv_file.string()),
+              0);
+    const json bench = json::parse(text_of(json_file));
+    ASSERT_EQ(bench["benchmarks"].size(), 8u);
+    uint64_t tests_of_one = 0;
+    for (size_t i = 0; i < 4; ++i) {
+        const json &gnomon = bench["benchmarks"][2 * i], &embree = bench["benchmarks"][2 * i + 1];
+        EXPECT_EQ(gnomon["value"], 1 << i);
+        if (i == 0) tests_of_one = gnomon["counts"]["shadow_tests"];
+        EXPECT_EQ(gnomon["counts"]["shadow_tests"], tests_of_one << i);
+        EXPECT_NEAR(embree["counts"]["shadow_tests"].get<double>(), static_cast<double>(tests_of_one << i), 8.0);
+    }
+    EXPECT_THAT(text_of(markdown_file), AllOf(HasSubstr("### Growth with lights"), HasSubstr("| random-cubes | 8 |")));
+    EXPECT_THAT(text_of(csv_file), HasSubstr("\nrandom-cubes@lights=8,lights,8,"));
+}
+
+TEST_F(FrameBench, ARefusedFrameKeepsEmbreesNumbers) {
+    const fs::path json_file = folder_ / "bench.json", markdown_file = folder_ / "bench.md", csv_file = folder_ / "bench.csv";
+    setenv("GNOMON_LIMITS", "buffer=16384", 1);
+    const int exit_code = exit_code_of("--scenes two-cubes --spp 1 --repeat 1 --scale 0.0625 --json " + json_file.string() +
+                                       " --markdown " + markdown_file.string() + " --csv " + csv_file.string());
+    unsetenv("GNOMON_LIMITS");
+    ASSERT_EQ(exit_code, 0);
+    const json bench = json::parse(text_of(json_file));
+    EXPECT_EQ(bench["benchmarks"][0]["error_occurred"], true);
+    EXPECT_THAT(bench["benchmarks"][0]["error_message"].get<std::string>(), HasSubstr("no memory"));
+    EXPECT_GT(bench["benchmarks"][1]["real_time"], 0.0);
+    EXPECT_THAT(text_of(markdown_file),
+                AllOf(HasSubstr("| two-cubes | 1 | - |"), HasSubstr("- two-cubes: no memory"), Not(HasSubstr("### Work"))));
+    EXPECT_THAT(text_of(csv_file), HasSubstr(",64,48,64,,,"));
+}
+
+TEST_F(FrameBench, ListsItsScenes) {
+    ASSERT_EQ(exit_code_of("--help > " + (folder_ / "help").string()), 0);
+    const std::string help = text_of(folder_ / "help");
+    for (const char* name : {"random-cubes@motion=16", "stadium-1m", "two-cubes-4k", "pillars"})
+        EXPECT_THAT(help, HasSubstr(name));
 }
 
 TEST_F(FrameBench, NamesWhatItCannotDo) {

@@ -99,5 +99,23 @@ TEST(Agreement, CountsHitsAndShadows) {
     EXPECT_DOUBLE_EQ(agreement.shadow_share(), 0.5);
 }
 
+TEST(PictureErrors, OfColoursAndOfVisibility) {
+    Frame a, b;
+    a.channels = {{"R", {1.0f, 0.0f}},
+                  {"B", {3.0f, 1.0f}},
+                  {"Z", {9.0f, 9.0f}},
+                  {"visibility.0", {0.5f, 1.0f}},
+                  {"visibility_var.0", {9.0f, 0.0f}}};
+    b.channels = {{"R", {2.0f, 1.0f}},
+                  {"B", {4.0f, 1.0f}},
+                  {"Z", {1.0f, 1.0f}},
+                  {"visibility.0", {1.0f, 1.0f}},
+                  {"visibility_var.0", {0.0f, 0.0f}}};
+    const PictureErrors errors = errors_of(a, b);
+    EXPECT_DOUBLE_EQ(errors.colour, 3.0 / 8.0);
+    EXPECT_DOUBLE_EQ(errors.visibility, 0.25);
+    EXPECT_EQ(errors_of(b, b).colour, 0.0);
+}
+
 }  // namespace
 }  // namespace gnomon::bench

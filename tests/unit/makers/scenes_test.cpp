@@ -154,6 +154,17 @@ TEST(RandomCubes, DependOnTheSeed) {
     EXPECT_NE(bytes_of_file(folder / "a.glb"), bytes_of_file(folder / "b.glb"));
 }
 
+TEST(RandomCubes, FasterOnesFillTheSameSpace) {
+    const Folder folder;
+    make_random_cubes(folder / "one.glb", {.count = 50});
+    make_random_cubes(folder / "four.glb", {.count = 50, .times = 4.0});
+    const Scene one = load_scene(folder / "one.glb"), four = load_scene(folder / "four.glb");
+    const std::vector<uint32_t> vertices = vertices_of(one, "cubes");
+    const double ratio = glm::length(mean(motions(four, {vertices[0]}))) / glm::length(mean(motions(one, {vertices[0]})));
+    EXPECT_NEAR(ratio, 4.0, 0.5);  // Cubes turn as they did.
+    EXPECT_EQ(default_shutter(one)[0].cameras[0].translation, default_shutter(four)[0].cameras[0].translation);
+}
+
 TEST(Pillars, LightMovesInTheFirstShutter) {
     const Folder folder;
     make_pillars(folder / "pillars.gltf", {.columns = 4});
@@ -206,6 +217,21 @@ TEST(Tube, HasTheSizesOfTheBenchmarks) {
     }
 }
 
+TEST(Stadium, IsASmallBodyOnALargeGround) {
+    const Folder folder;
+    for (const uint32_t triangles : {30000u, 300000u}) {
+        make_stadium(folder / "stadium.glb", {.triangles = triangles, .motion = 0.3});
+        const Scene scene = load_scene(folder / "stadium.glb");
+        expect_closed(scene, "body");
+        EXPECT_NEAR(static_cast<double>(triangles_of(scene, "body").size()), triangles, 0.05 * triangles);
+        EXPECT_NEAR(largest(displacements(scene, "body")), 0.3, 1e-6);
+        EXPECT_EQ(largest(displacements(scene, "ground")), 0.0);
+        const Bounds bounds = bounds_of(scene, default_shutter(scene));
+        EXPECT_EQ(bounds.upper.x - bounds.lower.x, 200.0f);
+        EXPECT_NEAR(bounds.upper.y - bounds.lower.y, 1.0f, 0.03f);
+    }
+}
+
 TEST(Makers, GltfAndGlbHoldTheSameScene) {
     const Folder folder;
     make_figure(folder / "a.gltf", {.triangles = 3000});
@@ -232,6 +258,7 @@ TEST(Makers, BadOptionsAreErrorsAndLeaveNoFile) {
     EXPECT_EQ(kind_of([&] { make_random_cubes(folder / "a.gltf", {.count = 1, .size = std::nan("")}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_pillars(folder / "a.gltf", {.columns = 0}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_tube(folder / "a.gltf", {.triangles = 10}); }), ErrorKind::usage);
+    EXPECT_EQ(kind_of([&] { make_stadium(folder / "a.gltf", {.triangles = 10}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_character(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_runner(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);
     EXPECT_EQ(kind_of([&] { make_wrecking_ball(folder / "a.gltf", {.triangles = 100}); }), ErrorKind::usage);

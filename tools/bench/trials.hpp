@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which of the ways to trace a row with Embree is the fastest.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "bench/bench_scenes.hpp"
+#include "bench/clocks.hpp"
+#include "peer.hpp"
+
+namespace gnomon::bench {
+
+/// A frame of one variant of the peer.
+struct Trial {
+    PeerBuild build;
+    PeerRays rays;
+    Seconds seconds;
+    bool whole = false;  ///< Otherwise the tracing is estimated from a part of the tiles; posing and building never are.
+};
+
+/// Every build with all rays on a part of the tiles, then the best few on the whole frame, in the order in which they ran.
+std::vector<Trial> try_variants(const PosedScene& posed, const PeerSettings& settings);
+
+/// The whole frame of the fewest CPU seconds: all variants use all threads, and what else a machine does adds to wall seconds
+/// only. trials: with at least one whole frame.
+const Trial& fastest(const std::vector<Trial>& trials);
+
+}  // namespace gnomon::bench
