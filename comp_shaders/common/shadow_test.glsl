@@ -13,7 +13,7 @@ layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
 READ_VEC4(14, asked)
 READ_UVEC2(15, asked_items)
-READ_UINT(40, page_of)  // Layouts have bindings from 16 on.
+READ_UINT(40, page_of)  // Layouts have bindings 16 to 39.
 
 // Hit `i` of the queue, as sample/ask left it. Its receiver has no barycentrics.
 ShadowTest asked_hit(uint i) {

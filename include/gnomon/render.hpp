@@ -23,7 +23,7 @@ struct RenderSettings {
     std::string layout = "auto";  ///< A registered layout, a folder that holds one, or auto: what the method is made for.
     std::string raster =
         "auto";  ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
-    std::string pages = "asked";  ///< Of an S-buffer are made: all its pages, or those that are asked for.
+    std::string pages = "all";  ///< Of an S-buffer are made: all its pages, or those that hits ask for.
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
     /// Of closed meshes list one side only, where the picture does not depend on what is listed (method exact). For comparison.

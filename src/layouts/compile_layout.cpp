@@ -22,6 +22,7 @@ namespace fs = std::filesystem;
 
 constexpr size_t kMostNested = 32;  // Includes; glslang itself has no limit.
 constexpr uint32_t kFirstBinding = 16;
+constexpr uint32_t kEndBinding = 40;
 constexpr const char* kHint = "see ARCHITECTURE.md, A new layout";
 
 const EmbeddedFile* find_source(const std::string& name) {
@@ -156,14 +157,14 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
         throw Error(ErrorKind::input, std::string("not what a layout may declare: ") + error.what(),
                     (layout.folder / "layout.glsl").string(), kHint);
     }
-    std::erase_if(declared, [](const gpu::Resource& r) { return r.binding < kFirstBinding; });
+    std::erase_if(declared, [](const gpu::Resource& r) { return r.binding < kFirstBinding || r.binding >= kEndBinding; });
     const auto named = [](const std::string& name) { return [&name](const gpu::Resource& r) { return r.name == name; }; };
     const std::vector<gpu::Resource> expected = promised(layout, stage.starts_with("raster/"));
     for (const gpu::Resource& e : expected) {
         auto d = std::find_if(declared.begin(), declared.end(), named(e.name));
         if (d == declared.end()) {
-            throw Error(ErrorKind::input, "layout.glsl declares no '" + e.name + "' at binding 16 or up for " + stage, where,
-                        kHint);
+            throw Error(ErrorKind::input, "layout.glsl declares no '" + e.name + "' at a binding from 16 to 39 for " + stage,
+                        where, kHint);
         }
         // What is declared by READ_... is a storage buffer in that variant.
         if (d->kind != e.kind && !(storage_reads && d->kind == gpu::ResourceKind::storage_buffer)) {

@@ -154,6 +154,9 @@ TEST(Validation, NormalFramesBringNoMessage) {
         settings.layout = layout;
         const Frame frame = validated().render(still.scene, still.poses, settings);
         EXPECT_EQ(hash_of(frame), hash_of(shared_renderer().render(still.scene, still.poses, settings))) << layout;
+        settings.pages = "asked";
+        EXPECT_EQ(hash_of(validated().render(still.scene, still.poses, settings)), hash_of(frame)) << layout;
+        settings.pages = "all";
     }
     MovingTriangles ortho = still_life(2);
     ortho.scene.cameras[0] = orthographic(2.0);

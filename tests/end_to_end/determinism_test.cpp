@@ -130,7 +130,6 @@ TEST(Budget, HoldsForManyLights) {
     for (int i = 1; i < 32; ++i) scene.add(sun(0.3f), {{glm::dvec3(0.0), looking({0.1 * i - 1.6, -1.0, 0.3})}});
     const PosedScene posed = scene;
     RenderSettings settings = small_settings(72, 50, 6, 160);
-    settings.pages = "all";  // What is asked for depends on the batches.
     const Frame whole = shared_renderer().render(posed.scene, posed.poses, settings);
     settings.memory_budget = 6u << 20;
     ASSERT_GT(whole.stats.peak_bytes, 4 * settings.memory_budget);

@@ -91,7 +91,7 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
         ->check(CLI::IsMember({"auto", "analytic", "conservative", "prism"}).description(""))
         ->capture_default_str()
         ->group(picture);
-    command.add_option("--pages", o.settings.pages, "Of an S-buffer are made: all its pages, or those that are asked for")
+    command.add_option("--pages", o.settings.pages, "Of an S-buffer are made: all its pages, or those that hits ask for")
         ->type_name("asked|all")
         ->check(CLI::IsMember({"asked", "all"}).description(""))
         ->capture_default_str()

@@ -65,7 +65,7 @@ TEST(RenderOptions, EveryOptionArrives) {
                                          "--layout",
                                          "list",
                                          "--raster=prism",
-                                         "--pages=all",
+                                         "--pages=asked",
                                          "--shadow-res=512",
                                          "--memory-budget=1M",
                                          "--device=1",
@@ -90,7 +90,7 @@ TEST(RenderOptions, EveryOptionArrives) {
     EXPECT_EQ(options.settings.method, "dtr");
     EXPECT_EQ(options.settings.layout, "list");
     EXPECT_EQ(options.settings.raster, "prism");
-    EXPECT_EQ(options.settings.pages, "all");
+    EXPECT_EQ(options.settings.pages, "asked");
     EXPECT_EQ(options.settings.shadow_res, 512u);
     EXPECT_EQ(options.settings.memory_budget, 1048576u);
     EXPECT_EQ(options.device, "1");
