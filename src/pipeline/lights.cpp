@@ -19,6 +19,7 @@ void release_side(LightSide& side) {
     side.asked.reset();
     side.bands.clear();
     side.bins = Bins();
+    side.listed = false;
     side.filled = kNotFilled;
 }
 
@@ -90,6 +91,7 @@ void Lights::make_together() {
         }
         for (Binning& binning : binnings) binning.count();
         for (Binning& binning : binnings) binning.fill();
+        for (Light& light : lights_) light.side.listed = true;
         for (size_t i = 0; i < lights_.size() && !shared_.asked; ++i) map_lists(i);
         for (size_t i = 0; i < lights_.size() && !shared_.asked; ++i) finish_map(i);
     } catch (const Error& error) {
@@ -194,9 +196,11 @@ bool Lights::fits(size_t light, size_t window) {
     if (side.map && side.bins.window == made.windows[window]) return true;
     const bool fits = with_room(light, [&] {
         project(light);
-        if (!side.bins.offsets || side.bins.window != made.windows[window]) {
+        if (!side.listed || side.bins.window != made.windows[window]) {
+            side.listed = false;
             list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, made.windows[window], listing(),
                         side.bins);
+            side.listed = true;
         }
         if (shared_.asked) ask(light);
         if (side.asked && side.asked->count() == 0) return;

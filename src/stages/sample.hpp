@@ -12,6 +12,7 @@ struct LightSide {
     uint32_t light_ix = 0;
     View view;
     Bins bins;
+    bool listed = false;           ///< The bins' lists are complete.
     std::unique_ptr<Pages> asked;  ///< The pages that the map holds, where it does not hold all items.
     std::unique_ptr<ShadowMap> map;
     std::vector<Band> bands;
