@@ -9,6 +9,7 @@
 #include "common/shadow_test.glsl"
 #include "common/list.glsl"
 #include "common/candidates.glsl"
+
 // Does a vertex of a triangle lie above the hit's, on the light's side? A shared one may seem to, by half a tolerance.
 bool rises(vec4 p0, vec4 p1, vec4 p2, ShadowTest test) {
     Receiver h = test.receiver;

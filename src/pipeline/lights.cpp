@@ -62,11 +62,11 @@ Listing Lights::listing() const {
 
 void Lights::prepare() {
     make_together();
+    if (shared_.asked) return;  // The pages are known when there are hits.
     // Only a count tells whether the ranges of a window fit. To make one may cut it in two.
     std::optional<BandTooLarge> worst;
     for (size_t i = 0; i < lights_.size(); ++i) {
         for (size_t w = 0; w < (shared_.method.has_s_buffer() ? lights_[i].windows.size() : 1); ++w) {
-            if (shared_.asked) continue;  // The pages are known when there are hits.
             try {
                 cut_to_fit(i, w, worst.has_value());
             } catch (const BandTooLarge& error) {
@@ -92,8 +92,10 @@ void Lights::make_together() {
         for (Binning& binning : binnings) binning.count();
         for (Binning& binning : binnings) binning.fill();
         for (Light& light : lights_) light.side.listed = true;
-        for (size_t i = 0; i < lights_.size() && !shared_.asked; ++i) map_lists(i);
-        for (size_t i = 0; i < lights_.size() && !shared_.asked; ++i) finish_map(i);
+        if (!shared_.asked) {
+            for (size_t i = 0; i < lights_.size(); ++i) map_lists(i);
+            for (size_t i = 0; i < lights_.size(); ++i) finish_map(i);
+        }
     } catch (const Error& error) {
         recorder.mark(marked);
         if (error.kind() != ErrorKind::out_of_memory) throw;

@@ -3,11 +3,11 @@
 #include "peer.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <functional>
 #include <thread>
 
 #include "embree_scene.hpp"
+#include "stopwatch.hpp"
 #include "tracer.hpp"
 #if defined(__SSE3__)
 #include <pmmintrin.h>
@@ -17,20 +17,6 @@ namespace gnomon {
 namespace {
 
 using namespace peer;
-
-class Clock {
-public:
-    // Seconds since the last call, or since construction.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 Motion motion_of(const std::vector<Pose>& poses, std::vector<Rigid> Pose::*list, size_t ix) {
     std::vector<Rigid> keys;

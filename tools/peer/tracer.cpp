@@ -3,12 +3,12 @@
 #include "tracer.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "math/sample.h"
+#include "stopwatch.hpp"
 
 namespace gnomon::peer {
 namespace {
@@ -18,19 +18,6 @@ namespace {
 constexpr float kNearShare = 0x1p-18f;
 // Of a shadow ray with the surface: nearer to the surface the tolerance would grow without bound.
 constexpr float kLeastCosine = 1e-3f;
-
-// Adds the time between its construction and its end to `seconds`.
-class Stopwatch {
-public:
-    explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point start_;
-};
 
 // Every second bit, from the lowest.
 uint32_t even_bits(uint32_t bits) {

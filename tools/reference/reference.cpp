@@ -3,12 +3,12 @@
 #include "reference.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <gnomon/error.hpp>
 #include <optional>
 #include <thread>
 
+#include "stopwatch.hpp"
 #include "tile_tracer.hpp"
 
 namespace gnomon {
@@ -121,20 +121,6 @@ TraceTally trace_tiles(Frame& frame, const World& world, const ReferenceSettings
     }
     return sum;
 }
-
-class Clock {
-public:
-    // Seconds since the last call, or since construction.
-    double lap() {
-        const auto now = std::chrono::steady_clock::now();
-        const double seconds = std::chrono::duration<double>(now - last_).count();
-        last_ = now;
-        return seconds;
-    }
-
-private:
-    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 }  // namespace
 

@@ -3,11 +3,11 @@
 #include "tile_tracer.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "math/sample.h"
+#include "stopwatch.hpp"
 
 namespace gnomon::reference {
 namespace {
@@ -27,19 +27,6 @@ glm::uvec2 pixel_of(uint32_t ix) {
     return {packet % kPacketsAcross * kPacketWidth + lane % kPacketWidth,
             packet / kPacketsAcross * kPacketHeight + lane / kPacketWidth};
 }
-
-// Adds the time between its construction and its end to `seconds`.
-class Stopwatch {
-public:
-    explicit Stopwatch(double& seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point start_;
-};
 
 double largest_coordinate(const glm::dvec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
 

@@ -52,8 +52,7 @@ TEST_F(CliTest, HelpGoesToStdout) {
          {"-o",        "--png",    "--exposure",      "--size",          "--spp",    "--seed",       "--shutter",
           "--frames",  "--fps",    "--shutter-angle", "--animation",     "--camera", "--time-steps", "--method",
           "--layout",  "--raster", "--shadow-res",    "--memory-budget", "--device", "--json",       "--quiet",
-          "--verbose", "--ground", "--validate",      "--map-spp",       "--bias",
-          "--pages"})
+          "--verbose", "--ground", "--validate",      "--map-spp",       "--bias",   "--pages"})
         EXPECT_THAT(help, HasSubstr(option));
 }
 
