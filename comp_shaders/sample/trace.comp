@@ -64,70 +64,58 @@ void main() {
     uint tile_x = tile - tile_y * grid.tiles_x;
     uint slot = item * kTileTexels;
 
-    // x and y in raster space, t in the shutter.
-    vec3 point[8];
+    // The strata's cells are walked one by one, by a dispatch each.
+    uint cell = kStraddle ? cell_of(stratum_start(stratum, params.stratum_length), grid.cell_count) + params.cell_turn
+                          : stratum / (params.spp / grid.cell_count);
+    bool walked = !kStraddle || cell <= cell_of(stratum_start(stratum + 1u, params.stratum_length), grid.cell_count);
+    cell = min(cell, grid.cell_count - 1u);
+    uint segment = cell / (grid.cell_count / grid.segment_count);
+    uint key_first = segment * grid.vertex_stride;
+
+    vec3 at[8];  // x and y in raster space, local time in the segment.
+    bool here[8];
     Best best[8];
     uint x_px = tile_x * kTileSize + lane;
     [[unroll]] for (uint r = 0u; r < 8u; ++r) {
         uint y_px = tile_y * kTileSize + r;
         vec3 p = view_sample(kSliced, x_px, y_px, stratum, params.stratum_length, params.seed);
-        point[r] = vec3(p.x - 0.5 * float(grid.width), p.y - 0.5 * float(grid.height), p.z);
-        bool visible = inside && x_px < grid.width && y_px < grid.height;
-        best[r] = Best(visible ? params.depth_far : -3.4e38, kNone);
+        at[r] = vec3(p.x - 0.5 * float(grid.width), p.y - 0.5 * float(grid.height), local_time_of(p.z, segment, grid.segment_count));
+        here[r] = inside && x_px < grid.width && y_px < grid.height;
+        if (kStraddle) here[r] = here[r] && walked && cell_of(p.z, grid.cell_count) == cell;
+        // Nothing is nearer than what no sample is taken for.
+        best[r] = Best(here[r] ? params.depth_far : -3.4e38, kNone);
+        if (kContinue) {
+            uint entry = hits[slot + tile_slot(lane, r)];
+            MovingTriangle m = fetch_moving_triangle(here[r] && entry != kNone ? entry : grid.triangle_count, key_first, grid.vertex_stride);
+            test(m, entry, at[r], best[r]);
+        }
     }
 
-    uint first_cell = kStraddle ? cell_of(stratum_start(stratum, params.stratum_length), grid.cell_count) : stratum / (params.spp / grid.cell_count);
-    uint cells = kStraddle ? cell_of(stratum_start(stratum + 1u, params.stratum_length), grid.cell_count) - first_cell + 1u : 1u;
-    uint cell_rounds = kStraddle ? rounds_of(cells) : 1u;
-    uint cell_round = 0u;
+    uint list = (tile - grid.tile_first) * grid.cell_count + cell;
+    uint begin = fetch_bin_offsets(list) + params.list_first;
+    uint end = max(fetch_bin_offsets(list + 1u), begin);
+    uint count = walked ? min(end - begin, kListChunk) : 0u;
+    uint rounds = rounds_of(count);
+    uint k = 0u;
     do {
-        bool walked = !kStraddle || cell_round < cells;
-        uint cell = first_cell + (walked ? cell_round : 0u);
-        uint segment = cell / (grid.cell_count / grid.segment_count);
-        uint key_first = segment * grid.vertex_stride;
-        Best current[8];
-        vec3 at[8];
-        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-            // A sample of another cell gets a depth that nothing is nearer than.
-            bool here = !kStraddle || (walked && cell_of(point[r].z, grid.cell_count) == cell);
-            current[r] = here ? best[r] : Best(-3.4e38, 0u);
-            at[r] = vec3(point[r].xy, local_time_of(point[r].z, segment, grid.segment_count));
-            if (kContinue) {
-                uint entry = hits[slot + tile_slot(lane, r)];
-                bool again = here && inside && entry != kNone;
-                MovingTriangle m = fetch_moving_triangle(again ? entry : grid.triangle_count, key_first, grid.vertex_stride);
-                test(m, entry, at[r], current[r]);
-            }
-        }
-        uint list = (tile - grid.tile_first) * grid.cell_count + cell;
-        uint begin = fetch_bin_offsets(list) + params.list_first;
-        uint end = max(fetch_bin_offsets(list + 1u), begin);
-        uint count = walked ? min(end - begin, trace_chunk(grid, params.spp)) : 0u;
-        uint rounds = rounds_of(count);
-        uint k = 0u;
+        // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
+        uint own = k + crew.place;
+        uint own_entry = own < count ? fetch_bin_entries(begin + own) : grid.triangle_count;
+        MovingTriangle own_triangle = fetch_moving_triangle(own_entry, key_first, grid.vertex_stride);
+        uint from = 0u;
+        uint last = min(crew.size, rounds - k);
         do {
-            // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
-            uint own = k + crew.place;
-            uint own_entry = own < count ? fetch_bin_entries(begin + own) : grid.triangle_count;
-            MovingTriangle own_triangle = fetch_moving_triangle(own_entry, key_first, grid.vertex_stride);
-            uint from = 0u;
-            uint last = min(crew.size, rounds - k);
-            do {
-                uint entry = subgroupShuffle(own_entry, crew.first + from);
-                MovingTriangle m = shown(own_triangle, crew.first + from);
-                [[unroll]] for (uint r = 0u; r < 8u; ++r) test(m, entry, at[r], current[r]);
-                ++from;
-            } while (from < last);
-            k += crew.size;
-        } while (k < rounds);
-        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-            bool here = !kStraddle || (walked && cell_of(point[r].z, grid.cell_count) == cell);
-            if (here) best[r] = current[r];
-        }
-        ++cell_round;
-    } while (cell_round < cell_rounds);
+            uint entry = subgroupShuffle(own_entry, crew.first + from);
+            MovingTriangle m = shown(own_triangle, crew.first + from);
+            [[unroll]] for (uint r = 0u; r < 8u; ++r) test(m, entry, at[r], best[r]);
+            ++from;
+        } while (from < last);
+        k += crew.size;
+    } while (k < rounds);
 
-    if (inside) {
-        [[unroll]] for (uint r = 0u; r < 8u; ++r) hits[slot + tile_slot(lane, r)] = best[r].entry;
+    // The first dispatch leaves a hit or none for every sample.
+    bool first = params.cell_turn == 0u && params.list_first == 0u;
+    [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+        if (inside && (first || here[r])) hits[slot + tile_slot(lane, r)] = best[r].entry;
     }
 }

@@ -56,12 +56,6 @@ struct ViewGrid {
     uint vertex_stride;  // Vertices from one key to the next.
 };
 
-// Entries of each list that one dispatch of sample/trace walks: a stratum may lie in several cells, each with a list of its
-// own.
-GN_FN uint trace_chunk(ViewGrid grid, uint spp) {
-    return spp % grid.cell_count == 0u ? kListChunk : max(kListChunk / (grid.cell_count / spp + 2u), 1u);
-}
-
 struct PoseParams {
     uint vertex_first;  // Of the dispatch; what it writes is bound from there on.
     uint vertex_count;
@@ -140,7 +134,8 @@ struct TraceParams {
     uint spp;
     float stratum_length;  // math/sample.h
     uint seed;
-    uint list_first;
+    uint list_first;   // Of each list kListChunk entries are walked, from this one on,
+    uint cell_turn;    // in the cell that comes so many after the stratum's first.
     float depth_near;  // A hit's depth is > depth_near and < depth_far.
     float depth_far;
 };

@@ -45,6 +45,8 @@ public:
     bool straddle() const { return straddle_; }
 
 private:
+    void record(gpu::Recorder& recorder, const Batch& batch, uint32_t cell_turn, uint32_t list_first);
+
     Programs& programs_;
     const Geometry& geometry_;
     const View& view_;
@@ -52,6 +54,7 @@ private:
     std::string stage_;
     Sampling sampling_;
     bool straddle_;
+    uint32_t cell_turns_;  ///< Dispatches in which the cells of each stratum are walked, one after the other.
     gpu::Buffer hits_, ticket_;
 };
 
