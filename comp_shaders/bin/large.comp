@@ -23,21 +23,6 @@ layout(push_constant, scalar) uniform Push { BinParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
 
-// Can the triangle, in this orientation, touch the tile that the vertices are relative to?
-bool touches_tile(vec3 a0, vec3 a1, vec3 a2, vec3 b0, vec3 b1, vec3 b2, float extent) {
-    const float reach = 0.5 * float(kTileSize);
-    BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, reach, reach, extent);
-    EdgeBound e0 = edge_bound(a1, a2, b1, b2, scale, reach);
-    EdgeBound e1 = edge_bound(a2, a0, b2, b0, scale, reach);
-    EdgeBound e2 = edge_bound(a0, a1, b0, b1, scale, reach);
-    float lo = 0.0, hi = 1.0, highest = 0.0;
-    clip_to_bound(e0.start.z, e0.end.z, lo, hi, highest);
-    clip_to_bound(e1.start.z, e1.end.z, lo, hi, highest);
-    clip_to_bound(e2.start.z, e2.end.z, lo, hi, highest);
-    float slack = time_slack(params.grid.cell_count);
-    return highest >= 0.0 && lo - slack <= hi + slack;
-}
-
 void main() {
     uint number = group_index() * (gl_WorkGroupSize.x / kBlockTiles) + gl_LocalInvocationID.x / kBlockTiles;
     if (number >= params.block_count) return;
@@ -51,7 +36,9 @@ void main() {
 
     uint key_first = segment_of_cell(grid, cell) * grid.vertex_stride;
     CellTriangle c = fetch_cell_triangle(grid, triangle, key_first, cell_span(grid, cell));
+    const float kReach = 0.5 * float(kTileSize);
     float extent = grid_extent(grid);
+    float slack = time_slack(grid.cell_count);
     uint tile = (block.y & 0xfffffu) * kBlockTiles * rounds + gl_LocalInvocationID.x % kBlockTiles;
     uint end = tile + kBlockTiles * rounds;
     do {
@@ -61,8 +48,8 @@ void main() {
         vec2 centre = tile_centre(grid, t.x, t.y);
         vec3 a0 = tile_relative(c.a0, centre.x, centre.y), a1 = tile_relative(c.a1, centre.x, centre.y), a2 = tile_relative(c.a2, centre.x, centre.y);
         vec3 b0 = tile_relative(c.b0, centre.x, centre.y), b1 = tile_relative(c.b1, centre.x, centre.y), b2 = tile_relative(c.b2, centre.x, centre.y);
-        bool positive = inside && (kByBounds || ((rect.seen & kSeenPositive) != 0u && touches_tile(a0, a1, a2, b0, b1, b2, extent)));
-        bool negative = inside && !kByBounds && (rect.seen & kSeenNegative) != 0u && touches_tile(a0, a2, a1, b0, b2, b1, extent);
+        bool positive = inside && (kByBounds || ((rect.seen & kSeenPositive) != 0u && touches_tile(a0, a1, a2, b0, b1, b2, kReach, extent, slack)));
+        bool negative = inside && !kByBounds && (rect.seen & kSeenNegative) != 0u && touches_tile(a0, a2, a1, b0, b2, b1, kReach, extent, slack);
 
         uint copies = (positive ? 1u : 0u) + (negative ? 1u : 0u);
         if (copies > 0u) {

@@ -12,6 +12,12 @@ vec2 cell_span(ViewGrid grid, uint cell) {
     return vec2(float(first), float(first + 1u)) / float(per_segment);
 }
 
+// With `scale` texels, a power of two, to a texel of the view.
+CellTriangle fetch_cell_triangle(ViewGrid grid, uint entry, uint key_first, vec2 span, float scale) {
+    MovingTriangle m = scaled(fetch_moving_triangle(entry, key_first, grid.vertex_stride), scale);
+    return cell_triangle(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, span.x, span.y);
+}
+
 CellTriangle fetch_cell_triangle(ViewGrid grid, uint entry, uint key_first, vec2 span) {
     MovingTriangle m = fetch_moving_triangle(entry, key_first, grid.vertex_stride);
     return cell_triangle(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, span.x, span.y);

@@ -66,9 +66,11 @@ struct ShadowTest {
     bool here;          // There is such a hit, the light may reach it, and its list is in memory.
 };
 
-uvec2 texel_at(vec2 at) {
-    return uvec2(clamp(floor(at.x + 0.5 * float(params.light_width)), 0.0, float(params.light_width - 1u)),
-                 clamp(floor(at.y + 0.5 * float(params.light_height)), 0.0, float(params.light_height - 1u)));
+// Of a level of pages, whose texels have a 2^level-th of the view's texels' side.
+uvec2 texel_at(vec2 at, uint level) {
+    float scale = float(1u << level);
+    return uvec2(clamp(floor((at.x + 0.5 * float(params.light_width)) * scale), 0.0, float((params.light_width << level) - 1u)),
+                 clamp(floor((at.y + 0.5 * float(params.light_height)) * scale), 0.0, float((params.light_height << level) - 1u)));
 }
 
 bool in_memory(uint item) { return item >= params.item_first && item < params.item_first + params.item_count; }
@@ -120,7 +122,7 @@ ShadowTest find_hit(uint i) {
     test.limit = kOrthographic ? depth - along_ray : depth + depth * along_ray;
     bool in_cone = kOrthographic || (place.z > 0.0 && place.x * place.x + place.y * place.y <= place.z * place.z * params.cone_tan2);
 
-    test.texel = texel_at(test.at);
+    test.texel = texel_at(test.at, 0u);
     uint tile = (test.texel.y / kTileSize) * ((params.light_width + kTileSize - 1u) / kTileSize) + test.texel.x / kTileSize;
     // Of tiles that are not in the window the number wraps.
     uint window_tile = tile - params.light_tile_first;

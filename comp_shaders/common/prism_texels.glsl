@@ -9,7 +9,6 @@ layout(constant_id = 0) const uint kPass = 0u;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const bool kCullBackFaces = false;  // Leave out what the light sees from behind at both ends.
 layout(constant_id = 3) const bool kAsked = false;
-READ_UVEC4(15, pages)
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
@@ -17,7 +16,7 @@ READ_VEC4(3, raster_vertices)
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
-#include "common/page.glsl"
+#include "common/source_page.glsl"
 #include "common/ticket.glsl"
 
 void visit(uint list, uint triangle, PrismFragments fragments);

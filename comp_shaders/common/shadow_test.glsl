@@ -12,31 +12,31 @@ layout(binding = 5, scalar) buffer Lit { uint lit[]; };
 layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
 layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
 READ_VEC4(14, asked)
-READ_UVEC2(15, asked_items)
-READ_UINT(40, page_of)  // Layouts have bindings 16 to 39.
+READ_UVEC2(15, asked_nodes)
+READ_UINT(40, leaves)  // Layouts have bindings 16 to 39.
 
 // Hit `i` of the queue, as sample/ask left it. Its receiver has no barycentrics.
 ShadowTest asked_hit(uint i) {
     ShadowTest test;
     bool inside = i < hit_count();
     vec4 asked = fetch_asked(inside ? i : 0u);
-    uvec2 item_time = fetch_asked_items(inside ? i : 0u);
-    inside = inside && item_time.x != kNone;
-    uint item = inside ? item_time.x & ~kReversed : 0u;
+    uvec2 node_time = fetch_asked_nodes(inside ? i : 0u);
+    inside = inside && node_time.x != kNone;
+    uint leaf = fetch_leaves(inside ? node_time.x & ~kReversed : 0u);
     test.slot = fetch_queue(i < hit_count() ? i : 0u);
     test.own = fetch_hits(test.slot) & ~kReversed;
     test.at = asked.xy;
     test.limit = asked.z;
     test.depth = asked.w;
-    test.behind = (item_time.x & kReversed) != 0u;
-    test.receiver.t = uintBitsToFloat(item_time.y);
+    test.behind = (node_time.x & kReversed) != 0u;
+    test.receiver.t = uintBitsToFloat(node_time.y);
     test.receiver.segment = divide(cell_of(test.receiver.t, params.light_cell_count) * params.camera.segment_count, params.light_cell_count);
     test.receiver.local_time = local_time_of(test.receiver.t, test.receiver.segment, params.camera.segment_count);
-    test.texel = texel_at(test.at);
-    uint page = fetch_page_of(item);
-    test.item = page;
-    test.here = inside && fetch_page_of(item + 1u) > page && in_memory(page);
-    test.list = list_of(page, test.texel);
+    // Its page, at the page's level.
+    test.texel = texel_at(test.at, leaf & 15u);
+    test.item = leaf >> 4u;
+    test.here = inside && leaf != kNone && in_memory(test.item);
+    test.list = list_of(test.item, test.texel);
     return test;
 }
 

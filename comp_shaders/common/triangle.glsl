@@ -24,3 +24,9 @@ MovingTriangle fetch_moving_triangle(uint entry, uint key_first, uint vertex_str
     m.d2 = fetch_raster_vertices(i2 + vertex_stride) - m.a2;
     return m;
 }
+
+// x and y by a power of two, which rounds nothing.
+MovingTriangle scaled(MovingTriangle m, float scale) {
+    vec4 by = vec4(scale, scale, 1.0, 1.0);
+    return MovingTriangle(m.a0 * by, m.a1 * by, m.a2 * by, m.d0 * by, m.d1 * by, m.d2 * by);
+}

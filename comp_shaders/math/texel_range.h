@@ -108,6 +108,30 @@ GN_FN TileBounds tile_bounds(CellTriangle c, float cx, float cy, float reach, fl
     return bounds;
 }
 
+// Can the triangle a -> b, in this orientation, touch the tile that its vertices are relative to (tile_relative)? reach: half the
+// tile's side, texels.
+GN_FN bool touches_tile(vec3 a0, vec3 a1, vec3 a2, vec3 b0, vec3 b1, vec3 b2, float reach, float extent, float slack) {
+    BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, reach, reach, extent);
+    EdgeBound e0 = edge_bound(a1, a2, b1, b2, scale, reach);
+    EdgeBound e1 = edge_bound(a2, a0, b2, b0, scale, reach);
+    EdgeBound e2 = edge_bound(a0, a1, b0, b1, scale, reach);
+    float lo = 0.0f, hi = 1.0f, highest = 0.0f;
+    clip_to_bound(e0.start.z, e0.end.z, lo, hi, highest);
+    clip_to_bound(e1.start.z, e1.end.z, lo, hi, highest);
+    clip_to_bound(e2.start.z, e2.end.z, lo, hi, highest);
+    return highest >= 0.0f && lo - slack <= hi + slack;
+}
+
+// Can the prism touch the tile with its centre at (cx, cy)?
+GN_FN bool cell_touches_tile(CellTriangle c, float cx, float cy, float reach, float extent, float slack) {
+    CellBox box = cell_box(c, extent, slack);
+    bool apart = box.lower.x > cx + reach || box.upper.x < cx - reach || box.lower.y > cy + reach || box.upper.y < cy - reach;
+    return !(cell_in_front(c) && apart) &&
+           touches_tile(tile_relative(c.a0, cx, cy), tile_relative(c.a1, cx, cy), tile_relative(c.a2, cx, cy),
+                        tile_relative(c.b0, cx, cy), tile_relative(c.b1, cx, cy), tile_relative(c.b2, cx, cy), reach, extent,
+                        slack);
+}
+
 // The bounds of the three edges along a column of texels: linear in the row, at the cell's start and at its end.
 struct ColumnBounds {
     vec3 start, start_step;

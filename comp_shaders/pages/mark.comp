@@ -19,7 +19,7 @@ const uint kShortList = 2u;
 
 void main() {
     uint item = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    if (item >= params.item_count) return;
+    if (item >= params.node_first) return;
     uvec2 receiver = fetch_receivers(item);
     uint begin = fetch_bin_offsets(item);
     uint end = fetch_bin_offsets(item + 1u);

@@ -18,12 +18,11 @@ READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
-READ_UVEC4(15, pages)
 layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
-#include "common/page.glsl"
+#include "common/source_page.glsl"
 #include "common/ticket.glsl"
 #include "common/range_count.glsl"
 uint range_base() { return params.range_first; }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: the ranges of each texel, conservative: every time at which a triangle may cover any point of the texel lies in its range, and its nearest depth is not
 //          behind the triangle anywhere. Count, or fill after the layout's own preparation.
-// Reads:   bin_offsets, bin_entries, triangles, raster_vertices, pages
+// Reads:   bin_offsets, bin_entries, triangles, raster_vertices, pages, page_entries
 // Writes:  RasterCounts (ranges, 64 bits per kCountBlock items), and what the layout says
 // Grid:    8 invocations per tile and cell: one per column of texels, the counts of its 8 rows in registers; they prepare the list's prisms for each other
 // Source:  math/texel_range.h
@@ -19,12 +19,11 @@ READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
-READ_UVEC4(15, pages)
 layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
-#include "common/page.glsl"
+#include "common/source_page.glsl"
 #include "common/ticket.glsl"
 #include "common/range_count.glsl"
 #include "common/crew.glsl"
@@ -42,10 +41,11 @@ void main() {
     Crew crew = join_crew();
     uint item = params.item_first + take_ticket() * 8u + (crewed_invocation() >> 3u);
     uint lane = crewed_invocation() & 7u;
-    ViewGrid grid = params.grid;
     bool inside = item < params.item_first + params.item_count;
     item = min(item, params.item_first + params.item_count - 1u);
     Page page = fetch_page(item);
+    ViewGrid grid = page.grid;
+    float scale = page_scale(page);
     uint cell = page.cell;
     vec2 centre = tile_centre(grid, page.tile_x, page.tile_y);
     float x = float(lane) - 3.5;
@@ -77,8 +77,8 @@ void main() {
     uint k = 0u;
     while (k < rounds) {
         // Past the end: any entry, which then is not listed.
-        uint own_entry = fetch_bin_entries(k + crew.place < entries ? begin + k + crew.place : 0u);
-        CellTriangle c = fetch_cell_triangle(grid, own_entry, key_first, span);
+        uint own_entry = fetch_page_entry(k + crew.place < entries ? begin + k + crew.place : 0u);
+        CellTriangle c = fetch_cell_triangle(grid, own_entry, key_first, span, scale);
         TileBounds own_bounds = tile_bounds(c, centre.x, centre.y, kReach, extent);
         uvec2 own_rows = tile_rows(c, centre.y, kReach, extent, slack);
         float own_nearest = nearest_depth(c, kOrthographic);

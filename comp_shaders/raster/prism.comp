@@ -36,8 +36,7 @@ void main() {
     uint item = params.item_first + number;
     uint list = number * kTileTexels + gl_LocalInvocationID.x;
     ViewGrid grid = params.grid;
-    uint window_item = kAsked ? fetch_pages(item).x : item;
-    float cell_start = float(window_item - window_item / grid.cell_count * grid.cell_count);
+    float cell_start = float(kAsked ? fetch_pages(2u * item).z : item - item / grid.cell_count * grid.cell_count);
     float per_cell = 1.0 / float(grid.cell_count);
 
     // Fragments of the prism at hand, by depth; equally deep ones by time.

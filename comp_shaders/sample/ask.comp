@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: each hit asks for its page of the light's view: 8 x 8 texels in one cell of time. It is kept as the light's view holds it, for the test.
 // Reads:   queue, hits, triangles, raster_vertices (camera), light_vertices, positions
-// Writes:  Asked (place in raster space, limit of depth, depth), AskedItems (of the window, with kReversed where the hit is lit from behind, or kNone; time), Lit (of hits that
-//          are inside a closed shell: bit `light`), Receivers (per item: ordered bits of the farthest limit, 0: nobody asked;
-//          the triangle of those who asked, plus one, kNone: they lie on several)
+// Writes:  Asked (place in raster space, limit of depth, depth), AskedNodes (the item of the window, with kReversed where the hit is lit from behind, or kNone; time), Lit (of
+//          hits that are inside a closed shell: bit `light`), Receivers (per item, common/ask.glsl)
 // Grid:    one invocation per hit
 #extension GL_GOOGLE_include_directive : require
 #include "common/light_hit.glsl"
-#include "math/order.h"
 
 layout(binding = 5, scalar) writeonly buffer Asked { vec4 asked[]; };
-layout(binding = 6, scalar) writeonly buffer AskedItems { uvec2 asked_items[]; };
+layout(binding = 6, scalar) writeonly buffer AskedNodes { uvec2 asked_nodes[]; };
 layout(binding = 10, scalar) buffer Lit { uint lit[]; };
 layout(binding = 7, scalar) coherent buffer Receivers { uvec2 receivers[]; };
+#include "common/ask.glsl"
 
 void main() {
     uint i = take_hit();
@@ -23,15 +22,7 @@ void main() {
     if (dark) lit[test.slot] &= ~(1u << params.light);
     if (i < hit_count()) {
         asked[i] = vec4(test.at, test.limit, test.depth);
-        asked_items[i] = uvec2(asks ? test.item | (test.behind ? kReversed : 0u) : kNone, floatBitsToUint(test.receiver.t));
+        asked_nodes[i] = uvec2(asks ? test.item | (test.behind ? kReversed : 0u) : kNone, floatBitsToUint(test.receiver.t));
     }
-    if (asks) {
-        // Of a surface that the light sees edge-on there may be none: nothing shadows it. Most find what they would write.
-        float limit = deepest(test);
-        uint order = ordered_bits(limit > -kFarthest ? limit : -kFarthest);
-        if (receivers[test.item].x < order) atomicMax(receivers[test.item].x, order);
-        uint before = receivers[test.item].y;
-        if (before == 0u) before = atomicCompSwap(receivers[test.item].y, 0u, test.own + 1u);
-        if (before != 0u && before != test.own + 1u && before != kNone) atomicMax(receivers[test.item].y, kNone);
-    }
+    if (asks) ask_for(test.item, test.own, deepest(test));
 }

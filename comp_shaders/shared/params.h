@@ -104,8 +104,25 @@ struct ScanParams {
     uint run_count;
 };
 
+// Pages with longer lists are split in four, in space (kSplitSpace) or in time, while that thins their lists.
+const uint kLongPage = 64u;
+const uint kSplitSpace = 1u;
+const uint kSplitTime = 2u;
+const uint kMostLevel = 8u;      // Of texels: each has half the side of those of the level before.
+const uint kMostTimeLevel = 3u;  // Of cells: each lasts a quarter of those of the level before.
+// Entries of a page that 8 invocations hand down to the pages that it is split into: a unit.
+const uint kPageUnit = 512u;
+// Invocations that count the entries of a unit, each for each of the four.
+const uint kUnitCounts = 32u;
+
 struct PageParams {
-    uint item_count;
+    ViewGrid grid;
+    uint page_first;  // Pages [page_first, page_first + page_count) are new: split, or not.
+    uint page_count;
+    uint unit_count;   // Of those that are split.
+    uint node_first;   // The number of the first node that they are split into: items of the window, then four for each unit.
+    uint entry_first;  // Of a list's entries those from here on were handed down to pages, the others are the bins'.
+    uint entry_next;   // Where those begin that are handed down now.
 };
 
 struct RasterParams {
@@ -115,6 +132,7 @@ struct RasterParams {
     uint list_first;      // Walk entries [list_first, list_first + kListChunk) of each list.
     uint range_first;     // The number of the first range in the bound memory.
     uint fragment_first;  // raster/prism: the number of the first fragment in memory.
+    uint entry_first;     // As in PageParams.
 };
 
 struct TexelRangesParams {
@@ -210,9 +228,9 @@ struct ShadowParams {
     float cone_tan2;   // Squared tangent of a spot's outer half angle.
     float tolerance;   // The least metres along a hit's normal within which nothing occludes.
     float depth_near;  // Occluders are deeper than this.
-    uint item_first;   // Items of the window, or pages, whose ranges are in memory.
+    uint item_first;   // Items of the window, or pages, whose ranges are in memory. sample/descend: new pages.
     uint item_count;
-    uint range_first;  // The number of the first range in memory.
+    uint range_first;  // The number of the first range in memory. sample/descend: PageParams::node_first.
     uint part;         // How many times kListChunk ranges of each list were walked before.
 };
 

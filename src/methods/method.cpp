@@ -56,6 +56,7 @@ const std::vector<Method>& methods() {
          .source = "",
          .rasters = {"conservative"},
          .shadow_stage = "sample/shadow",
+         .any_texels = true,
          .one_sided = true,
          .light_cells = finer_cells,
          .make_map = make_s_buffer},

@@ -59,6 +59,7 @@ struct Method {
     bool exit_depth = false;       ///< A range has a depth at its exit.
     bool fractional = false;       ///< Visibility is a share of the light, not a bit.
     bool windowed = true;          ///< Its map can be made for a part of the light's view alone.
+    bool any_texels = false;       ///< Its picture does not depend on the texels' size: pages may be split.
     bool one_sided = false;        ///< Of closed shells it needs only the faces that look away from the light.
     std::vector<Parameter> parameters = {};
 

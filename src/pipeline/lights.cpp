@@ -216,9 +216,12 @@ bool Lights::fits(size_t light, size_t window) {
 void Lights::ask(size_t light) {
     LightSide& side = lights_[light].side;
     side.asked.reset();
-    side.asked = std::make_unique<Pages>(shared_.device, shared_.programs, side.bins);
+    side.asked = std::make_unique<Pages>(shared_.device, shared_.programs, shared_.geometry, side.bins);
     shared_.sampler.ask(side, tolerance_);
     side.asked->list();
+    if (shared_.method.any_texels)
+        side.asked->refine(side.view.orthographic,
+                           [&](const Pages::Parts& parts) { shared_.sampler.descend(side, parts, tolerance_); });
     contexts_[light].asked = side.asked.get();
 }
 

@@ -34,12 +34,13 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterS
         all.push_back({"NearestTriangles", &map.nearest_triangles, {}, first * item_bytes, count * item_bytes});
         all.push_back({"Coverage", &map.coverage, {}, first * item_bytes, count * item_bytes});
         for (uint32_t pass = 0; pass < 4; ++pass) {
-            for (uint32_t part = 0; part < bin_part_count(source.bins); ++part) {
+            for (uint32_t part = 0; part < source.part_count(); ++part) {
                 recorder.fill("raster/coverage", ticket, 0);
                 recorder.dispatch(
                     "raster/coverage",
                     programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}), all,
-                    shared::RasterParams{source.bins.grid, count, first, part * shared::kListChunk, 0, 0}, groups_of(count, 8));
+                    shared::RasterParams{source.bins.grid, count, first, part * shared::kListChunk, 0, 0, source.entry_first()},
+                    groups_of(count, 8));
             }
         }
     }

@@ -35,8 +35,8 @@ public:
     const shared::ViewGrid& grid() const override { return source_.bins.grid; }
     uint32_t item_count() const override { return source_.item_count(); }
     uint32_t items_per_group() const override { return 8; }
-    uint64_t longest() const override { return uint64_t(source_.bins.longest) * shared::kPrismTriangles; }
-    uint32_t part_count() const override { return bin_part_count(source_.bins); }
+    uint64_t longest() const override { return uint64_t(source_.longest()) * shared::kPrismTriangles; }
+    uint32_t part_count() const override { return source_.part_count(); }
     const char* timing(bool fill) const override { return fill ? "raster/fragments" : "raster/count_fragments"; }
     const gpu::Program& program(bool fill) const override {
         return programs_.get("raster/fragments", {fill, settings_.orthographic, settings_.cull_back_faces,

@@ -111,10 +111,11 @@ void SBuffer::record_pass(bool fill, const Band& part) {
     uint64_t groups = groups_of(part.item_count, raster_->items_per_group());
     for (uint32_t i = 0; i < raster_->part_count(); ++i) {
         recorder.fill(raster_->timing(fill), raster_counts_, 0, 0, kTicketBytes);
-        recorder.dispatch(raster_->timing(fill), raster_->program(fill), all,
-                          shared::RasterParams{raster_->grid(), part.item_count, part.item_first, i * shared::kListChunk,
-                                               static_cast<uint32_t>(first_bound), raster_->fragment_base()},
-                          groups);
+        recorder.dispatch(
+            raster_->timing(fill), raster_->program(fill), all,
+            shared::RasterParams{raster_->grid(), part.item_count, part.item_first, i * shared::kListChunk,
+                                 static_cast<uint32_t>(first_bound), raster_->fragment_base(), raster_->entry_first()},
+            groups);
     }
 }
 

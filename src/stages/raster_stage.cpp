@@ -24,8 +24,9 @@ public:
     const shared::ViewGrid& grid() const override { return source_.bins.grid; }
     uint32_t item_count() const override { return source_.item_count(); }
     uint32_t items_per_group() const override { return items_per_group_; }
-    uint64_t longest() const override { return uint64_t(source_.bins.longest) * ranges_per_prism_; }
-    uint32_t part_count() const override { return bin_part_count(source_.bins); }
+    uint64_t longest() const override { return uint64_t(source_.longest()) * ranges_per_prism_; }
+    uint32_t part_count() const override { return source_.part_count(); }
+    uint32_t entry_first() const override { return source_.entry_first(); }
     const gpu::Program& program(bool fill) const override {
         std::vector<uint32_t> all = {fill};
         all.insert(all.end(), constants_.begin(), constants_.end());
@@ -55,11 +56,12 @@ std::vector<gpu::Binding> RasterSource::bindings() const {
                              {"bin_entries", &bins.entries, Texel::r32_uint},
                              {"triangles", &geometry.scene->triangles, Texel::rgba32_uint},
                              {"raster_vertices", &bins.raster_vertices, Texel::rgba32_float},
+                             {"page_entries", asked != nullptr ? &asked->entries() : &bins.entries, Texel::r32_uint},
                              pages()});
 }
 
-uint32_t bin_part_count(const Bins& bins) {
-    return std::max(1u, static_cast<uint32_t>(groups_of(bins.longest, shared::kListChunk)));
+uint32_t RasterSource::part_count() const {
+    return std::max(1u, static_cast<uint32_t>(groups_of(longest(), shared::kListChunk)));
 }
 
 std::unique_ptr<RasterStage> walk_bins(Programs& programs, const RasterSource& source, const std::string& shader,

@@ -32,6 +32,7 @@ public:
     virtual void prepare(const Band& /*portion*/) {}
     virtual uint64_t source_bytes() const { return 0; }   ///< Of all portions.
     virtual uint32_t fragment_base() const { return 0; }  ///< RasterParams::fragment_first.
+    virtual uint32_t entry_first() const { return 0; }    ///< RasterParams::entry_first.
 };
 
 /// What a raster stage walks: the lists of all items of the bins' window, or of the pages that were asked for.
@@ -41,6 +42,10 @@ struct RasterSource {
     const Pages* asked = nullptr;
 
     uint32_t item_count() const { return asked != nullptr ? asked->count() : bins.item_count(); }
+    /// Entries of the longest list, and dispatches that walk it, kListChunk entries each.
+    uint32_t longest() const { return asked != nullptr ? asked->longest() : bins.longest; }
+    uint32_t part_count() const;
+    uint32_t entry_first() const { return asked != nullptr ? asked->entry_first() : 0; }
     /// What every stage binds that walks the lists.
     std::vector<gpu::Binding> bindings() const;
     gpu::Binding pages() const;
@@ -49,8 +54,5 @@ struct RasterSource {
 /// raster/conservative or raster/analytic, compiled for a layout: "raster/analytic@array".
 std::unique_ptr<RasterStage> walk_bins(Programs& programs, const RasterSource& source, const std::string& shader,
                                        bool orthographic);
-
-/// Dispatches that walk the longest list, kListChunk entries each.
-uint32_t bin_part_count(const Bins& bins);
 
 }  // namespace gnomon

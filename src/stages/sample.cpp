@@ -50,7 +50,7 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     hit_total_ = gpu::upload_new(device, "hit_total", std::vector<uint32_t>(2));
     ticket_ = device.allocate("ticket", 4);
     asked_ = device.allocate("asked", settings.asks ? most_slots * sizeof(glm::vec4) : sizeof(glm::vec4));
-    asked_items_ = device.allocate("asked_items", settings.asks ? most_slots * sizeof(glm::uvec2) : sizeof(glm::uvec2));
+    asked_nodes_ = device.allocate("asked_nodes", settings.asks ? most_slots * sizeof(glm::uvec2) : sizeof(glm::uvec2));
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
@@ -144,7 +144,7 @@ uint64_t Sampler::most_groups() const {
 void Sampler::ask(const LightSide& light, float tolerance) {
     std::vector<gpu::Binding> all = hit_bindings(light);
     all.insert(all.end(), {{"Asked", &asked_},
-                           {"AskedItems", &asked_items_},
+                           {"AskedNodes", &asked_nodes_},
                            {"Receivers", &light.asked->receivers()},
                            {"Lit", &lit_, {}, 0, settings_.most_slots * 4}});
     gpu::Recorder& recorder = device_.recorder();
@@ -158,6 +158,24 @@ void Sampler::ask(const LightSide& light, float tolerance) {
         most_groups());
 }
 
+void Sampler::descend(const LightSide& light, const Pages::Parts& parts, float tolerance) {
+    std::vector<gpu::Binding> all = hit_bindings(light);
+    all.insert(all.end(), {{"asked", &asked_, Texel::rgba32_float},
+                           {"leaves", &light.asked->leaves(), Texel::r32_uint},
+                           {"pages", &light.asked->pages(), Texel::rgba32_uint},
+                           {"units", &parts.units, Texel::r32_uint},
+                           {"Receivers", &parts.receivers},
+                           {"AskedNodes", &asked_nodes_}});
+    shared::ShadowParams params = shadow_params(light, {light.bins.grid.cell_count}, {parts.page_first, 0}, tolerance);
+    params.range_first = parts.node_first;
+    gpu::Recorder& recorder = device_.recorder();
+    recorder.fill("sample/ask", ticket_, 0);
+    recorder.dispatch_indirect(
+        "sample/ask",
+        programs_.get("sample/descend", {light.view.orthographic, view_.orthographic, tracer_.straddle(), settings_.one_sided}),
+        all, params, shadow_groups_, 0, most_groups());
+}
+
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
     const uint32_t parts = walk_parts(light.map->longest());
     reserve_walk(light.map->longest());
@@ -167,8 +185,8 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                            {"ShadowCounts", &shadow_counts_},
                            {"Iterators", &iterators_},
                            {"asked", &asked_, Texel::rgba32_float},
-                           {"asked_items", &asked_items_, Texel::rg32_uint},
-                           {"page_of", light.asked ? &light.asked->page_of() : &asked_items_, Texel::r32_uint}});
+                           {"asked_nodes", &asked_nodes_, Texel::rg32_uint},
+                           {"leaves", light.asked ? &light.asked->leaves() : &asked_nodes_, Texel::r32_uint}});
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
     // The first pass over the queue writes every hit's word, later ones clear bits in it.
     const Window& window = light.bins.window;

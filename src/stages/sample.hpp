@@ -51,6 +51,8 @@ public:
     void reserve_walk(uint64_t longest);
     /// Ask for the pages of the light's window that the queue needs.
     void ask(const LightSide& light, float tolerance);
+    /// Those whose page is split ask for its parts.
+    void descend(const LightSide& light, const Pages::Parts& parts, float tolerance);
     /// Test the queue against a band of a light's S-buffer that is filled now.
     void test_shadows(const LightSide& light, const Band& band, float tolerance);
     /// Add the batch to the film.
@@ -87,7 +89,7 @@ private:
     uint32_t run_count_ = 0;
     ShadowCounts counts_;
     gpu::Buffer lit_, queue_, run_hits_, runs_, shadow_groups_, hit_total_, ticket_, film_, depth_values_, shadow_counts_,
-        iterators_, asked_, asked_items_, srgb_to_linear_;
+        iterators_, asked_, asked_nodes_, srgb_to_linear_;
 };
 
 }  // namespace gnomon

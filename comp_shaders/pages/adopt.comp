@@ -1,0 +1,53 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: the pages that others are split into: those that something is listed for. Mark, or write after the scan.
+// Reads:   pages, units (sums), receivers (of the parts), places (of their entries); write: page_of (scanned marks)
+// Writes:  mark: Marks; write: NewPages (two uvec4 each, common/page.glsl), Leaves (per node: its page * 16 + its level, or kNone)
+// Grid:    one invocation per node, four for each unit; only those of a page's first unit are of its parts
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "math/order.h"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const bool kWrite = false;
+READ_UVEC4(4, pages)
+READ_UINT(5, units)
+READ_UVEC2(6, receivers)
+READ_UINT(7, places)
+READ_UINT(10, page_of)
+layout(binding = 8, scalar) writeonly buffer Marks { uint marks[]; };
+layout(binding = 9, scalar) writeonly buffer NewPages { uvec4 new_pages[]; };
+layout(binding = 11, scalar) writeonly buffer Leaves { uint leaves[]; };
+layout(push_constant, scalar) uniform Push { PageParams params; };
+#include "common/page.glsl"
+#include "common/page_units.glsl"
+
+void main() {
+    uint node = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (node >= 4u * params.unit_count) return;
+    uint unit = node >> 2u;
+    uint q = node & 3u;
+    uint i = page_of_unit(unit);
+    uint first_unit = fetch_units(i);
+    uint count_step = (fetch_units(i + 1u) - first_unit) * 8u;
+    uint first = first_unit * kUnitCounts + q * count_step;
+    uint begin = fetch_places(first), end = fetch_places(first + count_step);
+    bool listed = unit == first_unit && end > begin;
+    if (!kWrite) {
+        marks[node] = listed ? 1u : 0u;
+        return;
+    }
+    uint number = params.page_first + i;
+    Page page = unpack_page(params.grid, fetch_pages(2u * number), fetch_pages(2u * number + 1u));
+    Page part = part_of(page, page.split, q);
+    uint rank = fetch_page_of(node);
+    leaves[params.node_first + node] = listed ? (params.page_first + params.page_count + rank) << 4u | part.level : kNone;
+    if (!listed) return;
+    uvec2 receiver = fetch_receivers(node);
+    part.begin = params.entry_next + begin;
+    part.end = params.entry_next + end;
+    part.receiver = receiver.y == kNone ? kNone : receiver.y - 1u;
+    part.limit = from_ordered_bits(receiver.x);
+    new_pages[2u * rank] = page_place(part);
+    new_pages[2u * rank + 1u] = page_list(part);
+}
