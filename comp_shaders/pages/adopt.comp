@@ -25,21 +25,15 @@ layout(push_constant, scalar) uniform Push { PageParams params; };
 void main() {
     uint node = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     if (node >= 4u * params.unit_count) return;
-    uint unit = node >> 2u;
+    Unit unit = fetch_unit(node >> 2u);
     uint q = node & 3u;
-    uint i = page_of_unit(unit);
-    uint first_unit = fetch_units(i);
-    uint count_step = (fetch_units(i + 1u) - first_unit) * 8u;
-    uint first = first_unit * kUnitCounts + q * count_step;
-    uint begin = fetch_places(first), end = fetch_places(first + count_step);
-    bool listed = unit == first_unit && end > begin;
+    uint begin = fetch_places(part_place(unit, q)), end = fetch_places(part_place(unit, q) + unit.count * 8u);
+    bool listed = unit.number == unit.first && end > begin;
     if (!kWrite) {
         marks[node] = listed ? 1u : 0u;
         return;
     }
-    uint number = params.page_first + i;
-    Page page = unpack_page(params.grid, fetch_pages(2u * number), fetch_pages(2u * number + 1u));
-    Page part = part_of(page, page.split, q);
+    Page part = part_of(unit.page, unit.page.split, q);
     uint rank = fetch_page_of(node);
     leaves[params.node_first + node] = listed ? (params.page_first + params.page_count + rank) << 4u | part.level : kNone;
     if (!listed) return;

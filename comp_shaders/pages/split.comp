@@ -13,23 +13,26 @@ layout(local_size_x = 64) in;
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
-READ_UINT(41, page_entries)
 layout(binding = 4, scalar) buffer Pages { uvec4 pages[]; };
 layout(binding = 5, scalar) writeonly buffer Units { uint units[]; };
 layout(binding = 6, scalar) buffer Longest { uint longest; };
 layout(push_constant, scalar) uniform Push { PageParams params; };
 #include "common/split_page.glsl"
+#include "common/page_entry.glsl"
 
 const uint kSamples = 64u;
-// Of four parts, that a prism lies in: where there are more in the mean, splitting multiplies entries without making lists much shorter.
+// Of four parts that a prism lies in, in the mean: where there are more, one splitting thins the lists little,
 const float kMostParts = 2.5;
+// but where half of the triangles are so many times smaller than the page, or than their way in its cell, the next ones do.
+const float kSmall = 3.0;
 
-shared uint s_parts[8][2];
+shared uint s_parts[8][3];
 
-uint fetch_entry(uint k) {
-    bool handed_down = k >= params.entry_first;
-    uint own = fetch_bin_entries(handed_down ? 0u : k);
-    return handed_down ? fetch_page_entries(k - params.entry_first) : own;
+// Is the triangle small, compared with the page or with its way?
+bool is_small(CellTriangle c) {
+    vec2 a0 = c.a0.xy / c.a0.w, a1 = c.a1.xy / c.a1.w, a2 = c.a2.xy / c.a2.w, b0 = c.b0.xy / c.b0.w;
+    vec2 size = max(max(abs(a1 - a0), abs(a2 - a0)), abs(a2 - a1)), way = abs(b0 - a0);
+    return cell_in_front(c) && kSmall * max(size.x, size.y) < max(float(kTileSize), max(way.x, way.y));
 }
 
 void main() {
@@ -43,30 +46,31 @@ void main() {
     bool in_space = page.level < kMostLevel, in_time = page.time_level < kMostTimeLevel;
     bool is_long = inside && count > kLongPage && (in_space || in_time);
 
-    if (lane < 2u) s_parts[here][lane] = 0u;
+    if (lane < 3u) s_parts[here][lane] = 0u;
     barrier();
     if (is_long) {
         uvec2 parts = uvec2(0u);
+        uint small = 0u;
         for (uint s = lane; s < kSamples; s += 8u) {
             // Without overflow: s * count / kSamples.
             uint k = s * (count / kSamples) + s * (count % kSamples) / kSamples;
-            MovingTriangle m = fetch_entry_triangle(page, fetch_entry(page.begin + k));
-            for (uint q = 0u; q < 4u; ++q) {
-                Page quarter = part_of(page, kSplitSpace, q), moment = part_of(page, kSplitTime, q);
-                parts.x += touches(quarter, in_cell(quarter, m)) ? 1u : 0u;
-                parts.y += touches(moment, in_cell(moment, m)) ? 1u : 0u;
-            }
+            MovingTriangle m = fetch_entry_triangle(page, fetch_page_entry(page.begin + k));
+            CellTriangle c = in_cell(page, m);
+            parts += uvec2(bitCount(parts_in_space(page, c)), bitCount(parts_in_time(page, m)));
+            small += is_small(c) ? 1u : 0u;
         }
         atomicAdd(s_parts[here][0], parts.x);
         atomicAdd(s_parts[here][1], parts.y);
+        atomicAdd(s_parts[here][2], small);
     }
     barrier();
     if (!inside || lane != 0u) return;
     uint split = 0u;
     if (is_long) {
         uint space = in_space ? s_parts[here][0] : 4u * kSamples, time = in_time ? s_parts[here][1] : 4u * kSamples;
-        // Of equally good ways the one in space: its texels are smaller, too.
-        if (float(min(space, time)) <= kMostParts * float(kSamples)) split = space <= time ? kSplitSpace : kSplitTime;
+        bool pays = float(min(space, time)) <= kMostParts * float(kSamples) || s_parts[here][2] > kSamples / 2u;
+        // Of equally good ways the one in space, while there is: its texels are smaller, too.
+        if (pays) split = in_space && space <= time || !in_time ? kSplitSpace : kSplitTime;
     }
     units[i] = split != 0u ? (count + kPageUnit - 1u) / kPageUnit : 0u;
     if (split != 0u) {

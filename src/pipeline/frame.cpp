@@ -232,14 +232,17 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
         camera_entries += bins.entry_count;
         sampler.begin_window();
         if (w == 0) shadows.prepare();
-        const std::vector<Batch> batches = split_batches(windows[w], settings.spp, most_slots, shadows.most_strata());
+        std::vector<Batch> batches = split_batches(windows[w], settings.spp, most_slots, shadows.most_strata());
         for (size_t b = 0; b < batches.size() && !stopped; ++b) {
             const double window_share = static_cast<double>(b) / static_cast<double>(batches.size());
             const double done = windows[w].tile_first + window_share * windows[w].tile_count;
             stopped = progress && !progress(done / (double(tiles_across(view)) * tiles_down(view)));
             if (stopped) break;
             sampler.trace(batches[b]);
-            shadows.test_shadows(batches[b]);
+            while (!shadows.test_shadows(batches[b], can_halve(batches[b]))) {
+                halve(batches, b);
+                sampler.trace(batches[b]);
+            }
             sampler.shade(lights, !lights_still(poses));
             if (b + 1 < batches.size()) device.recorder().submit();  // So that progress is what was done.
             if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);

@@ -257,13 +257,17 @@ uint32_t Lights::most_strata() const {
     return most;
 }
 
-void Lights::test_shadows(const Batch& batch) {
+bool Lights::test_shadows(const Batch& batch, bool may_give_up) {
     const double open = static_cast<double>(batch.stratum_first) / shared_.settings.spp;
     const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / shared_.settings.spp;
     for (size_t i = 0; i < lights_.size(); ++i) {
         Light& light = lights_[i];
         for (size_t w = 0; w < light.windows.size(); ++w) {
-            make(i, w);
+            if (shared_.asked && may_give_up) {
+                if (!fits(i, w)) return false;
+            } else {
+                make(i, w);
+            }
             LightSide& side = light.side;
             for (size_t b = 0; b < side.bands.size(); ++b) {
                 const Band& band = side.bands[b];
@@ -280,6 +284,7 @@ void Lights::test_shadows(const Batch& batch) {
             side.filled = kNotFilled;
         }
     }
+    return true;
 }
 
 void Lights::report(Frame& frame) const {

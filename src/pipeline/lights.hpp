@@ -41,8 +41,9 @@ public:
     /// Most strata of a batch: what shading can walk; and where a map is cut in time, so are the samples, so that it is filled
     /// once.
     uint32_t most_strata() const;
-    /// Test the sampler's hits, of the batch, against every light.
-    void test_shadows(const Batch& batch);
+    /// Test the sampler's hits, of the batch, against every light. False, if may_give_up, where the pages that they ask for do
+    /// not fit into memory: those that fewer hits ask for may.
+    bool test_shadows(const Batch& batch, bool may_give_up);
 
     /// Write counts, by "name.light", and what was really used.
     void report(Frame& frame) const;

@@ -152,4 +152,26 @@ std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t mo
     return batches;
 }
 
+bool can_halve(const Batch& batch) { return batch.tile_count > 1 || batch.stratum_count > 1; }
+
+void halve(std::vector<Batch>& batches, size_t first) {
+    std::vector<Batch> halves(batches.begin(), batches.begin() + static_cast<std::ptrdiff_t>(first));
+    for (size_t b = first; b < batches.size(); ++b) {
+        const Batch& batch = batches[b];
+        Batch low = batch, high = batch;
+        if (batch.tile_count > 1) {
+            low.tile_count /= 2;
+            high.tile_count -= low.tile_count;
+            high.tile_first += low.tile_count;
+        } else {
+            low.stratum_count /= 2;
+            high.stratum_count -= low.stratum_count;
+            high.stratum_first += low.stratum_count;
+        }
+        if (can_halve(batch)) halves.push_back(low);
+        halves.push_back(high);
+    }
+    batches = std::move(halves);
+}
+
 }  // namespace gnomon

@@ -38,4 +38,9 @@ uint64_t film_tiles(const gpu::Device& device, uint32_t planes, uint64_t bytes);
 /// order.
 std::vector<Batch> split_batches(const Window& window, uint32_t spp, uint64_t most_slots, uint32_t most_strata);
 
+/// Batches of more than one tile and stratum.
+bool can_halve(const Batch& batch);
+/// Those from `first` on that can be halved, in the same order: by their tiles, else by their strata.
+void halve(std::vector<Batch>& batches, size_t first);
+
 }  // namespace gnomon

@@ -58,20 +58,27 @@ void Pages::list() {
                       params(0), groups_of(items, 64));
 }
 
-void Pages::extend(gpu::Buffer& buffer, const char* name, uint64_t held, uint64_t bytes) {
-    if (std::max(held, uint64_t{1}) + bytes > device_.limits().max_storage_range)
-        throw Error(ErrorKind::out_of_memory, std::string(name) + " are more than the device can bind", "S-buffer",
+gpu::Buffer Pages::longer(const gpu::Buffer& buffer, const char* name, uint64_t held, uint64_t bytes) {
+    gpu::Buffer made = allocate(name, held + bytes);
+    if (held > 0) device_.recorder().copy(kStage, buffer, 0, made, 0, held);
+    return made;
+}
+
+gpu::Buffer Pages::allocate(const char* name, uint64_t bytes) {
+    const gpu::Limits& limits = device_.limits();
+    if (bytes > std::min(limits.max_storage_range, limits.most_elements(4) * 4)) {
+        throw Error(ErrorKind::out_of_memory,
+                    std::string(name) + " of " + std::to_string(bytes) + " bytes are more than the device can bind", "S-buffer",
                     "use --pages all");
-    gpu::Buffer longer = device_.allocate(name, std::max<uint64_t>(4, held + bytes));
-    if (held > 0) device_.recorder().copy(kStage, buffer, 0, longer, 0, held);
-    buffer = std::move(longer);
+    }
+    return device_.allocate(name, std::max<uint64_t>(4, bytes));
 }
 
 // The units of the new pages, whose sums go to `units`.
 uint32_t Pages::split(uint32_t page_first, const gpu::Buffer& longest, const gpu::Buffer& units) {
     gpu::Recorder& recorder = device_.recorder();
     const shared::PageParams params = this->params(page_first);
-    const gpu::Buffer counts = device_.allocate("page_units", scan_bytes(params.page_count));
+    const gpu::Buffer counts = allocate("page_units", scan_bytes(params.page_count));
     recorder.fill(kStage, counts, 0);
     recorder.dispatch(kStage, programs_.get("pages/split"),
                       bindings({{"bin_entries", &bins_.entries, Texel::r32_uint},
@@ -86,22 +93,32 @@ uint32_t Pages::split(uint32_t page_first, const gpu::Buffer& longest, const gpu
     return gpu::download_vector<uint32_t>(device_, units, 1, uint64_t(params.page_count) * 4)[0];
 }
 
-void Pages::hand_down(bool fill, bool orthographic, const shared::PageParams& params, const Parts& parts,
-                      const gpu::Buffer& places, const gpu::Buffer& target) {
-    const Unbound unbound(device_, 2);
-    device_.recorder().dispatch(
-        kStage, programs_.get("pages/hand_down", {fill, orthographic}),
-        bindings({{"bin_entries", &bins_.entries, Texel::r32_uint},
-                  {"page_entries", &entries_, Texel::r32_uint},
-                  {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
-                  {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                  {"pages", &pages_, Texel::rgba32_uint},
-                  {"units", &parts.units, Texel::r32_uint},
-                  {"receivers", &parts.receivers, Texel::rg32_uint},
-                  fill ? gpu::Binding{"places", &places, Texel::r32_uint} : unbound.at(0, "places", Texel::r32_uint),
-                  fill ? unbound.at(1, "Counts") : gpu::Binding{"Counts", &target},
-                  fill ? gpu::Binding{"Entries", &target} : unbound.at(1, "Entries")}),
-        params, groups_of(params.unit_count, 8));
+void Pages::sift(bool orthographic, const shared::PageParams& params, const Parts& parts, const gpu::Buffer& sieves,
+                 const gpu::Buffer& counts) {
+    device_.recorder().dispatch(kStage, programs_.get("pages/sift", {orthographic}),
+                                bindings({{"bin_entries", &bins_.entries, Texel::r32_uint},
+                                          {"page_entries", &entries_, Texel::r32_uint},
+                                          {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
+                                          {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                          {"pages", &pages_, Texel::rgba32_uint},
+                                          {"units", &parts.units, Texel::r32_uint},
+                                          {"receivers", &parts.receivers, Texel::rg32_uint},
+                                          {"Sieves", &sieves},
+                                          {"Counts", &counts}}),
+                                params, groups_of(params.unit_count, 8));
+}
+
+void Pages::hand_down(const shared::PageParams& params, const Parts& parts, const gpu::Buffer& sieves,
+                      const gpu::Buffer& places, const gpu::Buffer& entries) {
+    device_.recorder().dispatch(kStage, programs_.get("pages/hand_down"),
+                                bindings({{"bin_entries", &bins_.entries, Texel::r32_uint},
+                                          {"page_entries", &entries_, Texel::r32_uint},
+                                          {"pages", &pages_, Texel::rgba32_uint},
+                                          {"units", &parts.units, Texel::r32_uint},
+                                          {"sieves", &sieves, Texel::r32_uint},
+                                          {"places", &places, Texel::r32_uint},
+                                          {"Entries", &entries}}),
+                                params, groups_of(params.unit_count, 8));
 }
 
 void Pages::adopt(bool write, const shared::PageParams& params, const Parts& parts, const gpu::Buffer& places,
@@ -126,26 +143,27 @@ void Pages::refine(bool orthographic, const std::function<void(const Parts&)>& a
     recorder.fill(kStage, longest, 0);
     for (uint32_t page_first = 0; page_first < count_;) {
         shared::PageParams params = this->params(page_first);
-        const gpu::Buffer units = device_.allocate("unit_sums", scan_bytes(params.page_count));
+        const gpu::Buffer units = allocate("unit_sums", scan_bytes(params.page_count));
         params.unit_count = split(page_first, longest, units);
         if (params.unit_count == 0) break;
 
         // Whoever lies in a page that was split asks for the part that he lies in.
         const uint64_t nodes = uint64_t(params.unit_count) * 4;
-        const gpu::Buffer receivers = device_.allocate("part_receivers", nodes * sizeof(glm::uvec2));
+        const gpu::Buffer receivers = allocate("part_receivers", nodes * sizeof(glm::uvec2));
         recorder.fill(kStage, receivers, 0);
         const Parts parts{page_first, params.node_first, units, receivers};
         ask(parts);
 
         const uint64_t counters = uint64_t(params.unit_count) * shared::kUnitCounts;
-        const gpu::Buffer places = device_.allocate("part_places", scan_bytes(counters));
-        const gpu::Buffer ranks = device_.allocate("part_ranks", scan_bytes(nodes));
+        const gpu::Buffer places = allocate("part_places", scan_bytes(counters));
+        const gpu::Buffer ranks = allocate("part_ranks", scan_bytes(nodes));
+        const gpu::Buffer sieves = allocate("sieves", uint64_t(params.unit_count) * shared::kPageUnit / 2);
         {
-            const gpu::Buffer counts = device_.allocate("part_counts", scan_bytes(counters));
+            const gpu::Buffer counts = allocate("part_counts", scan_bytes(counters));
             recorder.fill(kStage, counts, 0);
-            hand_down(false, orthographic, params, parts, places, counts);
+            sift(orthographic, params, parts, sieves, counts);
             record_scan(device_, programs_, counts, static_cast<uint32_t>(counters), places);
-            const gpu::Buffer marks = device_.allocate("part_marks", scan_bytes(nodes));
+            const gpu::Buffer marks = allocate("part_marks", scan_bytes(nodes));
             recorder.fill(kStage, marks, 0);
             adopt(false, params, parts, places, ranks, marks);
             record_scan(device_, programs_, marks, static_cast<uint32_t>(nodes), ranks);
@@ -158,17 +176,17 @@ void Pages::refine(bool orthographic, const std::function<void(const Parts&)>& a
             throw Error(ErrorKind::out_of_memory, "the lists of pages are more than 32 bits can number", "S-buffer",
                         "use --pages all");
 
-        gpu::Buffer made_entries =
-            device_.allocate("page_entries", std::max<uint64_t>(4, (entry_count_ + uint64_t(new_entries)) * 4));
-        if (entry_count_ > 0) recorder.copy(kStage, entries_, 0, made_entries, 0, uint64_t(entry_count_) * 4);
-        hand_down(true, orthographic, params, parts, places, made_entries);
-        extend(leaves_, "leaves", uint64_t(node_count_) * 4, nodes * 4);
-        const gpu::Buffer made_pages = device_.allocate("new_pages", std::max<uint64_t>(1, new_pages) * kPageBytes);
+        gpu::Buffer made_entries = longer(entries_, "page_entries", uint64_t(entry_count_) * 4, uint64_t(new_entries) * 4);
+        hand_down(params, parts, sieves, places, made_entries);
+        leaves_ = longer(leaves_, "leaves", uint64_t(node_count_) * 4, nodes * 4);
+        const gpu::Buffer made_pages = allocate("new_pages", std::max<uint64_t>(1, new_pages) * kPageBytes);
         adopt(true, params, parts, places, ranks, made_pages);
-        extend(pages_, "pages", count_ * kPageBytes, new_pages * kPageBytes);
+        pages_ = longer(pages_, "pages", count_ * kPageBytes, new_pages * kPageBytes);
         if (new_pages > 0) recorder.copy(kStage, made_pages, 0, pages_, count_ * kPageBytes, new_pages * kPageBytes);
         entries_ = std::move(made_entries);
 
+            fprintf(stderr, "pages %u new %u units %u -> pages %u entries %u\n", params.page_first, params.page_count,
+                    params.unit_count, new_pages, new_entries);
         page_first = count_;
         count_ += new_pages;
         entry_count_ += new_entries;

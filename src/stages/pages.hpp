@@ -45,13 +45,16 @@ public:
 
 private:
     uint32_t split(uint32_t page_first, const gpu::Buffer& longest, const gpu::Buffer& units);
-    void hand_down(bool fill, bool orthographic, const shared::PageParams& params, const Parts& parts,
-                   const gpu::Buffer& places, const gpu::Buffer& target);
+    void sift(bool orthographic, const shared::PageParams& params, const Parts& parts, const gpu::Buffer& sieves,
+              const gpu::Buffer& counts);
+    void hand_down(const shared::PageParams& params, const Parts& parts, const gpu::Buffer& sieves, const gpu::Buffer& places,
+                   const gpu::Buffer& entries);
     void adopt(bool write, const shared::PageParams& params, const Parts& parts, const gpu::Buffer& places,
                const gpu::Buffer& ranks, const gpu::Buffer& target);
     shared::PageParams params(uint32_t page_first) const;
-    /// With room for `bytes` more behind what it holds.
-    void extend(gpu::Buffer& buffer, const char* name, uint64_t held, uint64_t bytes);
+    /// A copy of the `held` bytes of the buffer, with room for `bytes` more.
+    gpu::Buffer longer(const gpu::Buffer& buffer, const char* name, uint64_t held, uint64_t bytes);
+    gpu::Buffer allocate(const char* name, uint64_t bytes);  ///< What the device can bind.
 
     gpu::Device& device_;
     Programs& programs_;
