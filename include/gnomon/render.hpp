@@ -132,6 +132,10 @@ public:
     /// The same frame as of its scene. Errors: also ErrorKind::usage for a scene that another renderer loaded.
     Frame render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                  const Progress& progress = {});
+    /// The same, over a frame that is no longer needed: it gives its memory, since fresh memory for the channels can cost more
+    /// than the picture. What it holds after an error is undefined.
+    void render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings, Frame& frame,
+                const Progress& progress = {});
 
 private:
     struct Impl;
