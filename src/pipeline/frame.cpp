@@ -56,7 +56,7 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const RenderSetti
     check_range("shadow resolution", settings.shadow_res, 1, 16384);
     if (settings.pages != "asked" && settings.pages != "all")
         throw Error(ErrorKind::usage, "no pages '" + settings.pages + "'", "settings", "use asked or all");
-    check_range("number of poses", poses.size(), 2, 65);
+    check_range("number of poses", poses.size(), 2, kMostSegments + 1);
     if (scene.triangles.empty())
         throw Error(ErrorKind::input, "the scene has no triangles", scene.path.string(), "add a mesh with triangles");
     if (settings.camera >= scene.cameras.size()) {
