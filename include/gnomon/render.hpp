@@ -125,8 +125,9 @@ public:
 
     const DeviceDescription& device() const;
 
-    /// Render the scene in these poses (segments + 1 of them, see pose_scene; 2 to kMostSegments + 1). The scene needs a camera and may have no light.
-    /// Errors: ErrorKind::usage, input, out_of_memory, device_lost. Deterministic: same arguments, same bits.
+    /// Render the scene in these poses (segments + 1 of them, see pose_scene; 2 to kMostSegments + 1). The scene needs a camera
+    /// and may have no light. Errors: ErrorKind::usage, input, out_of_memory, device_lost. Deterministic: same arguments, same
+    /// bits.
     Frame render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                  const Progress& progress = {});
 
