@@ -12,6 +12,9 @@
 
 namespace gnomon {
 
+/// Segments of motion that a frame has at most.
+inline constexpr uint32_t kMostSegments = 128;
+
 struct RenderSettings {
     uint32_t width = 1280;  ///< Pixels, 1 to 16384.
     uint32_t height = 720;  ///< Pixels, 1 to 16384.
@@ -122,8 +125,9 @@ public:
 
     const DeviceDescription& device() const;
 
-    /// Render the scene in these poses (segments + 1 of them, see pose_scene). The scene needs a camera and may have no light.
-    /// Errors: ErrorKind::usage, input, out_of_memory, device_lost. Deterministic: same arguments, same bits.
+    /// Render the scene in these poses (segments + 1 of them, see pose_scene; 2 to kMostSegments + 1). The scene needs a camera
+    /// and may have no light. Errors: ErrorKind::usage, input, out_of_memory, device_lost. Deterministic: same arguments, same
+    /// bits.
     Frame render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                  const Progress& progress = {});
 
@@ -132,6 +136,10 @@ public:
     /// The same frame as of its scene. Errors: also ErrorKind::usage for a scene that another renderer loaded.
     Frame render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                  const Progress& progress = {});
+    /// The same, over a frame that is no longer needed: it gives its memory, since fresh memory for the channels can cost more
+    /// than the picture. What it holds after an error is undefined.
+    void render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings, Frame& frame,
+                const Progress& progress = {});
 
 private:
     struct Impl;

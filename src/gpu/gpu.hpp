@@ -250,6 +250,8 @@ public:
     Download download(const Buffer& buffer, uint64_t offset, uint64_t bytes);
     /// The same to `data`, at once: submits.
     void download(const Buffer& buffer, std::span<std::byte> data, uint64_t offset);
+    /// The bytes from `offset` on go one after the other to each of `parts`; at once: submits.
+    void download(const Buffer& buffer, std::span<const std::span<std::byte>> parts, uint64_t offset);
 
     /// vkCmdFillBuffer; bytes 0: to the end. offset and bytes are multiples of 4.
     void fill(std::string_view stage, const Buffer& buffer, uint32_t value, uint64_t offset = 0, uint64_t bytes = 0);

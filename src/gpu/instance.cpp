@@ -72,6 +72,20 @@ std::string version_text(uint32_t version) {
     return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
 }
 
+constexpr VkApplicationInfo kApplication{
+    .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "gnomon", .apiVersion = VK_API_VERSION_1_3};
+
+// Drivers are unloaded with the last instance, and one cannot count on a driver to load any number of times in a process: with
+// NVIDIA's there was no device any more after some thirty. An instance that is never destroyed keeps those that were found.
+void keep_drivers() {
+    static const VkInstance kept = [] {
+        const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO, .pApplicationInfo = &kApplication};
+        VkInstance instance = VK_NULL_HANDLE;
+        return vkCreateInstance(&info, nullptr, &instance) == VK_SUCCESS ? instance : VK_NULL_HANDLE;
+    }();
+    static_cast<void>(kept);
+}
+
 // The first queue family with compute, if possible one with timestamps.
 void find_queue(Candidate& candidate) {
     uint32_t count = 0;
@@ -263,13 +277,11 @@ Instance::Instance(bool validate) {
     const VkValidationFeaturesEXT validation{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                              .enabledValidationFeatureCount = 1,
                                              .pEnabledValidationFeatures = &synchronization};
-    const VkApplicationInfo application{
-        .sType = VK_STRUCTURE_TYPE_APPLICATION_INFO, .pApplicationName = "gnomon", .apiVersion = VK_API_VERSION_1_3};
     const VkInstanceCreateInfo info{
         .sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
         .pNext = validate ? &validation : nullptr,
         .flags = portability ? VkInstanceCreateFlags{VK_INSTANCE_CREATE_ENUMERATE_PORTABILITY_BIT_KHR} : 0,
-        .pApplicationInfo = &application,
+        .pApplicationInfo = &kApplication,
         .enabledLayerCount = static_cast<uint32_t>(layers.size()),
         .ppEnabledLayerNames = layers.data(),
         .enabledExtensionCount = static_cast<uint32_t>(extensions.size()),
@@ -280,6 +292,7 @@ Instance::Instance(bool validate) {
         return;
     }
     check(result, "create a Vulkan instance");
+    keep_drivers();
     if (!debug_utils) return;
     begin_label = load<PFN_vkCmdBeginDebugUtilsLabelEXT>(handle, "vkCmdBeginDebugUtilsLabelEXT");
     end_label = load<PFN_vkCmdEndDebugUtilsLabelEXT>(handle, "vkCmdEndDebugUtilsLabelEXT");

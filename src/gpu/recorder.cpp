@@ -165,8 +165,15 @@ Download Recorder::download(const Buffer& buffer, uint64_t offset, uint64_t byte
 bool Recorder::mark(bool on) { return std::exchange(impl_->marked, on); }
 
 void Recorder::download(const Buffer& buffer, std::span<std::byte> data, uint64_t offset) {
-    const auto& source = checked_transfer(*impl_->device, buffer, offset, data.size(), "download");
-    if (!data.empty()) impl_->fetch(source, offset, data.size(), data.data(), nullptr);
+    download(buffer, std::span(&data, 1), offset);
+}
+
+void Recorder::download(const Buffer& buffer, std::span<const std::span<std::byte>> parts, uint64_t offset) {
+    for (const std::span<std::byte>& part : parts) {
+        const auto& source = checked_transfer(*impl_->device, buffer, offset, part.size(), "download");
+        if (!part.empty()) impl_->fetch(source, offset, part.size(), part.data(), nullptr);
+        offset += part.size();
+    }
     submit();
 }
 

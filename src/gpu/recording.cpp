@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "gpu/bindings.hpp"
+#include "gpu/copies.hpp"
 #include "gpu/recorder_impl.hpp"
 
 namespace gnomon::gpu {
@@ -172,9 +173,13 @@ void Recorder::Impl::stage_before(const Access& write) {
 }
 
 void Recorder::Impl::finish_fetches() {
+    std::vector<Copy> copies;
     for (const Fetch& f : fetches) {
         const std::byte* from = f.staged_at ? state->staging.mapped + *f.staged_at : f.buffer->memory.mapped + f.offset;
-        std::memcpy(f.to, from, f.bytes);
+        copies.push_back({from, f.to, f.bytes});
+    }
+    copy_all(copies);
+    for (const Fetch& f : fetches) {
         if (f.state) f.state->ready = true;
     }
 }

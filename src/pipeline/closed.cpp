@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace gnomon {
 namespace {
@@ -37,55 +38,102 @@ std::vector<glm::dvec3> eye_corners(const View& view) {
     return corners;
 }
 
-bool separates(const glm::dvec3& axis, const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b, double margin) {
-    const auto along = [&](const glm::dvec3& p, const glm::dvec3& q) { return glm::dot(axis, p) < glm::dot(axis, q); };
-    const auto [a_low, a_high] = std::minmax_element(a.begin(), a.end(), along);
-    const auto [b_low, b_high] = std::minmax_element(b.begin(), b.end(), along);
-    return glm::dot(axis, *a_low - *b_high) > margin || glm::dot(axis, *b_low - *a_high) > margin;
-}
+// What lies on one side of another along an axis: as ranges of its coordinate.
+struct Range {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -std::numeric_limits<double>::infinity();
+
+    void add(double value) {
+        low = std::min(low, value);
+        high = std::max(high, value);
+    }
+    bool apart(const Range& other, double margin) const { return low - other.high > margin || other.low - high > margin; }
+};
+
+// An axis of the view's space: at either key of a segment, its coordinate of a place in the world is normal * place + offset.
+struct Axis {
+    std::array<glm::dvec3, 2> normals;
+    std::array<double, 2> offsets{};
+    Range eye;
+
+    // Of the hull of the box at both keys.
+    Range of(const glm::dvec3& centre, const glm::dvec3& half) const {
+        Range range;
+        for (size_t i = 0; i < 2; ++i) {
+            const double middle = glm::dot(normals[i], centre) + offsets[i], reach = glm::dot(glm::abs(normals[i]), half);
+            range.add(middle - reach);
+            range.add(middle + reach);
+        }
+        return range;
+    }
+};
 
 }  // namespace
 
 // Vertices move linearly between keys in the view's own space, where its rays do not move: what a box holds at both keys stays
 // in the hull of its corners at both. Any axis that separates the hull from the eye will do; those tried are the space's, and
 // the box's at either key.
-bool may_reach_eye(const Bounds& box, const View& view) {
-    const std::vector<glm::dvec3> eye = eye_corners(view);
-    std::vector<Space> spaces;
-    for (const ViewKey& key : view.keys) spaces.emplace_back(view, key);
-    for (size_t k = 0; k + 1 < spaces.size(); ++k) {
-        std::vector<glm::dvec3> hull;
-        std::vector<glm::dvec3> axes = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-        for (const Space& space : {spaces[k], spaces[k + 1]}) {
-            for (int corner = 0; corner < 8; ++corner) {
-                hull.push_back(space.point({corner & 1 ? box.upper.x : box.lower.x, corner & 2 ? box.upper.y : box.lower.y,
-                                            corner & 4 ? box.upper.z : box.lower.z}));
+struct Eye::Segment {
+    std::array<Axis, 9> axes;
+};
+
+Eye::~Eye() = default;
+Eye::Eye(Eye&&) noexcept = default;
+
+Eye::Eye(const View& view) {
+    const std::vector<glm::dvec3> corners = eye_corners(view);
+    const auto same = [](const ViewKey& a, const ViewKey& b) {
+        return a.row_x == b.row_x && a.row_y == b.row_y && a.row_z == b.row_z && a.row_w == b.row_w && a.origin == b.origin;
+    };
+    for (size_t k = 0; k + 1 < view.keys.size(); ++k) {
+        if (k > 0 && same(view.keys[k - 1], view.keys[k]) && same(view.keys[k], view.keys[k + 1])) continue;
+        const std::array spaces = {Space(view, view.keys[k]), Space(view, view.keys[k + 1])};
+        Segment& segment = segments_.emplace_back();
+        for (size_t i = 0; i < segment.axes.size(); ++i) {
+            glm::dvec3 unit(0.0);
+            unit[static_cast<int>(i % 3)] = 1.0;
+            const glm::dvec3 along = i < 3 ? unit : spaces[i / 3 - 1].direction(unit);
+            Axis& axis = segment.axes[i];
+            for (size_t s = 0; s < 2; ++s) {
+                axis.normals[s] = along.x * spaces[s].x + along.y * spaces[s].y + along.z * spaces[s].z;
+                axis.offsets[s] = glm::dot(along, spaces[s].shift) - glm::dot(axis.normals[s], spaces[s].origin);
             }
-            for (int axis = 0; axis < 3; ++axis) {
-                glm::dvec3 e(0.0);
-                e[axis] = 1.0;
-                axes.push_back(space.direction(e));
-            }
+            for (const glm::dvec3& corner : corners) axis.eye.add(glm::dot(along, corner));
         }
-        double largest = std::max({std::abs(box.lower.x), std::abs(box.lower.y), std::abs(box.lower.z), std::abs(box.upper.x),
-                                   std::abs(box.upper.y), std::abs(box.upper.z)});
-        for (const glm::dvec3& p : hull) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-        const auto apart = [&](const glm::dvec3& axis) { return separates(axis, hull, eye, kMargin * largest); };
-        if (std::none_of(axes.begin(), axes.end(), apart)) return true;
     }
-    return false;
+}
+
+bool Eye::may_be_reached(const Bounds& box) const {
+    const glm::dvec3 lower(box.lower), upper(box.upper);
+    const glm::dvec3 centre = 0.5 * (lower + upper), half = 0.5 * (upper - lower);
+    const glm::dvec3 farthest = glm::max(glm::abs(lower), glm::abs(upper));
+    const double in_world = std::max({farthest.x, farthest.y, farthest.z});
+    return std::any_of(segments_.begin(), segments_.end(), [&](const Segment& segment) {
+        double largest = in_world;
+        std::array<Range, 3> own;  // Along the space's axes.
+        for (size_t i = 0; i < own.size(); ++i) {
+            own[i] = segment.axes[i].of(centre, half);
+            largest = std::max({largest, std::abs(own[i].low), std::abs(own[i].high)});
+        }
+        const double margin = kMargin * largest;
+        for (size_t i = 0; i < segment.axes.size(); ++i) {
+            const Axis& axis = segment.axes[i];
+            if (axis.eye.apart(i < own.size() ? own[i] : axis.of(centre, half), margin)) return false;
+        }
+        return true;
+    });
 }
 
 std::vector<uint32_t> closed_shells(const Scene& scene, const std::vector<Pose>& poses, const GeometryBounds& bounds,
                                     const View& camera) {
-    std::vector<View> views = {camera};
+    std::vector<Eye> eyes;
+    eyes.emplace_back(camera);
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (scene.lights[i].kind == LightKind::spot) views.push_back(light_view(scene.lights[i], poses, i, bounds.all, 1));
+        if (scene.lights[i].kind == LightKind::spot) eyes.emplace_back(light_view(scene.lights[i], poses, i, bounds.all, 1));
     }
     std::vector<uint32_t> closed;
     for (const Bounds& box : bounds.shells) {
-        const bool reached =
-            std::any_of(views.begin(), views.end(), [&](const View& view) { return may_reach_eye(box, view); });
+        const bool reached = std::any_of(eyes.begin(), eyes.end(), [&](const Eye& eye) { return eye.may_be_reached(box); });
         closed.push_back(reached ? 0 : 1);
     }
     closed.push_back(0);

@@ -12,8 +12,19 @@ namespace gnomon {
 std::vector<uint32_t> closed_shells(const Scene& scene, const std::vector<Pose>& poses, const GeometryBounds& bounds,
                                     const View& camera);
 
-/// May something in the box, all the time between two neighbouring keys or more, touch what the view's rays start on: its near
-/// plane as far as the image goes; where it has an eye, what lies between the two? If in doubt, yes.
-bool may_reach_eye(const Bounds& box, const View& view);
+/// What a view's rays start on: its near plane as far as the image goes; where it has an eye, what lies between the two.
+class Eye {
+public:
+    explicit Eye(const View& view);
+    Eye(Eye&&) noexcept;
+    ~Eye();
+
+    /// May something in the box, all the time between two neighbouring keys or more, touch it? If in doubt, yes.
+    bool may_be_reached(const Bounds& box) const;
+
+private:
+    struct Segment;
+    std::vector<Segment> segments_;  ///< Those whose keys differ from the ones before.
+};
 
 }  // namespace gnomon

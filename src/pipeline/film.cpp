@@ -2,8 +2,18 @@
 #include "pipeline/film.hpp"
 
 #include <algorithm>
+#include <span>
 
 namespace gnomon {
+
+namespace {
+
+// The frame's values of row `row` of the window.
+std::span<float> row_of(Frame& frame, Channel& channel, const WindowRect& rect, uint32_t row) {
+    return std::span(channel.values).subspan(size_t(rect.first_px.y + row) * frame.width + rect.first_px.x, rect.size_px.x);
+}
+
+}  // namespace
 
 void make_channels(Frame& frame) {
     std::vector<std::string> names = {"R", "G", "B", "A", "Z"};
@@ -11,17 +21,28 @@ void make_channels(Frame& frame) {
         names.push_back("visibility." + std::to_string(light));
         names.push_back("visibility_var." + std::to_string(light));
     }
-    const size_t pixels = size_t(frame.width) * frame.height;
-    for (const std::string& name : names) frame.channels.push_back({name, std::vector<float>(pixels)});
+    frame.channels.resize(names.size());
+    for (size_t i = 0; i < names.size(); ++i) {
+        frame.channels[i].name = names[i];
+        frame.channels[i].values.resize(size_t(frame.width) * frame.height);
+    }
 }
 
-void store(Frame& frame, const std::vector<float>& film, const WindowRect& rect) {
-    auto from = film.begin();
+void read_film(gpu::Device& device, const gpu::Buffer& film, Frame& frame, const WindowRect& rect) {
+    // Whole rows lie one behind the other in the frame too.
+    const uint32_t runs = rect.size_px.x == frame.width ? 1 : rect.size_px.y;
+    const size_t run_px = size_t(rect.size_px.x) * rect.size_px.y / runs;
+    std::vector<std::span<std::byte>> parts;
     for (Channel& channel : frame.channels) {
-        for (uint32_t row = 0; row < rect.size_px.y; ++row, from += rect.size_px.x) {
-            const size_t place = size_t(rect.first_px.y + row) * frame.width + rect.first_px.x;
-            std::copy_n(from, rect.size_px.x, channel.values.begin() + static_cast<std::ptrdiff_t>(place));
-        }
+        for (uint32_t run = 0; run < runs; ++run)
+            parts.push_back(std::as_writable_bytes(std::span(row_of(frame, channel, rect, run).data(), run_px)));
+    }
+    device.recorder().download(film, parts, 0);
+}
+
+void clear_film(Frame& frame, const WindowRect& rect) {
+    for (Channel& channel : frame.channels) {
+        for (uint32_t row = 0; row < rect.size_px.y; ++row) std::ranges::fill(row_of(frame, channel, rect, row), 0.0f);
     }
 }
 

@@ -9,11 +9,14 @@
 
 namespace gnomon {
 
-/// The frame's channels, all zero.
+/// The frame's channels, in the memory of those that it has. Their values are undefined where they were something else.
 void make_channels(Frame& frame);
 
-/// Copy the resolved film of a window to the frame. film: plane-major, in the order of the channels.
-void store(Frame& frame, const std::vector<float>& film, const WindowRect& rect);
+/// Read a window's film, as Sampler::resolve() leaves it, to the frame. Runs what was recorded.
+void read_film(gpu::Device& device, const gpu::Buffer& film, Frame& frame, const WindowRect& rect);
+
+/// Of a window without a film: zero.
+void clear_film(Frame& frame, const WindowRect& rect);
 
 /// Write the samples of a batch that was just shaded into those of the frame.
 void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp,

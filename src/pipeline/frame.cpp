@@ -31,9 +31,9 @@ const Scene& LoadedScene::scene() const { return impl_->scene; }
 struct Renderer::Impl {
     Impl(const std::string& choice, bool validate) : device(choice, validate), programs(device) {}
 
-    /// loaded: what is on the device of the scene; none: nothing yet.
-    Frame render(const Scene& scene, std::shared_ptr<const SceneData> loaded, const std::vector<Pose>& poses,
-                 const RenderSettings& settings, const Progress& progress);
+    /// loaded: what is on the device of the scene; none: nothing yet. frame: its memory is used again.
+    void render(const Scene& scene, std::shared_ptr<const SceneData> loaded, const std::vector<Pose>& poses,
+                const RenderSettings& settings, const Progress& progress, Frame& frame);
 
     gpu::Device device;
     Programs programs;
@@ -56,7 +56,7 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const RenderSetti
     check_range("shadow resolution", settings.shadow_res, 1, 16384);
     if (settings.pages != "asked" && settings.pages != "all")
         throw Error(ErrorKind::usage, "no pages '" + settings.pages + "'", "settings", "use asked or all");
-    check_range("number of poses", poses.size(), 2, 65);
+    check_range("number of poses", poses.size(), 2, kMostSegments + 1);
     if (scene.triangles.empty())
         throw Error(ErrorKind::input, "the scene has no triangles", scene.path.string(), "add a mesh with triangles");
     if (settings.camera >= scene.cameras.size()) {
@@ -136,17 +136,27 @@ const DeviceDescription& Renderer::device() const { return impl_->device.descrip
 
 Frame Renderer::render(const Scene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                        const Progress& progress) {
-    return impl_->render(scene, nullptr, poses, settings, progress);
+    Frame frame;
+    impl_->render(scene, nullptr, poses, settings, progress, frame);
+    return frame;
 }
 
 Frame Renderer::render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                        const Progress& progress) {
+    Frame frame;
+    render(scene, poses, settings, frame, progress);
+    return frame;
+}
+
+void Renderer::render(const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings, Frame& frame,
+                      const Progress& progress) {
     if (scene.impl_ == nullptr || scene.impl_->device != &impl_->device)
         throw Error(ErrorKind::usage, "the scene was not loaded by this renderer", "scene", "load it with Renderer::load");
-    return impl_->render(scene.scene(), scene.impl_->data, poses, settings, progress);
+    impl_->render(scene.scene(), scene.impl_->data, poses, settings, progress, frame);
 }
 
 LoadedScene Renderer::load(const Scene& scene) {
+    check_turns(scene);
     check_scene(impl_->device, scene, 2, std::numeric_limits<uint64_t>::max());  // The budget is a frame's.
     impl_->device.set_budget(0);
     LoadedScene loaded;
@@ -155,10 +165,11 @@ LoadedScene Renderer::load(const Scene& scene) {
     return loaded;
 }
 
-Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData> loaded, const std::vector<Pose>& poses,
-                             const RenderSettings& settings, const Progress& progress) {
+void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData> loaded, const std::vector<Pose>& poses,
+                            const RenderSettings& settings, const Progress& progress, Frame& frame) {
     auto start = std::chrono::steady_clock::now();
     check(scene, poses, settings);
+    if (!loaded) check_turns(scene);
     const Method& method = find_method(settings.method);
     check_parameters(method, settings.parameters);
     const std::string raster = choose_raster(method, settings.raster);
@@ -175,7 +186,9 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     check_scene(device, scene, poses.size(), budget);
     device.set_budget(budget);
 
-    Frame frame;
+    frame.samples.clear();
+    frame.sample_visibility.clear();
+    frame.texel_ranges.clear();
     frame.width = settings.width;
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
@@ -227,7 +240,11 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     const uint64_t camera_bytes = left() / 2;
     uint64_t camera_entries = 0;
     bool stopped = false;
-    for (size_t w = 0; w < windows.size() && !stopped; ++w) {
+    for (size_t w = 0; w < windows.size(); ++w) {
+        if (stopped) {
+            clear_film(frame, rect_of(view, windows[w]));
+            continue;
+        }
         list_window(device, programs, geometry, view, windows, w, budget, camera_bytes, shadows, bins);
         camera_entries += bins.entry_count;
         sampler.begin_window();
@@ -247,7 +264,7 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
             if (b + 1 < batches.size()) device.recorder().submit();  // So that progress is what was done.
             if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);
         }
-        store(frame, sampler.resolve(), rect_of(view, windows[w]));
+        read_film(device, sampler.resolve(), frame, rect_of(view, windows[w]));
     }
     if (progress) progress(1.0);
     if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges();
@@ -267,7 +284,6 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
     frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;
     frame.stats.counts["ranges_tested"] = sampler.shadow_counts().tested;
     frame.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    return frame;
 }
 
 }  // namespace gnomon

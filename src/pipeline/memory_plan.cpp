@@ -61,6 +61,16 @@ uint64_t bytes_of(const std::vector<SceneBuffer>& buffers) {
 
 }  // namespace
 
+void check_turns(const Scene& scene) {
+    uint32_t targets = 0, influences = 0;
+    for (const Morph& morph : scene.morphs) targets = std::max(targets, morph.target_count);
+    for (const Vertex& vertex : scene.vertices) influences = std::max(influences, vertex.influence_count);
+    if (uint64_t(targets) + influences >= shared::kMostTurns) {
+        throw Error(ErrorKind::input, std::to_string(targets) + " morph targets of a mesh", scene.path.string(),
+                    "use fewer than " + std::to_string(shared::kMostTurns - influences));
+    }
+}
+
 void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, uint64_t budget) {
     const gpu::Limits& limits = device.limits();
     const std::vector<SceneBuffer> buffers = scene_buffers(scene, keys);
@@ -71,13 +81,6 @@ void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, u
                     std::to_string(b.elements) + " " + b.what + " are more than the " + std::to_string(most) +
                         " that the device can bind",
                     scene.path.string(), b.hint);
-    }
-    uint32_t targets = 0, influences = 0;
-    for (const Morph& morph : scene.morphs) targets = std::max(targets, morph.target_count);
-    for (const Vertex& vertex : scene.vertices) influences = std::max(influences, vertex.influence_count);
-    if (uint64_t(targets) + influences >= shared::kMostTurns) {
-        throw Error(ErrorKind::input, std::to_string(targets) + " morph targets of a mesh", scene.path.string(),
-                    "use fewer than " + std::to_string(shared::kMostTurns - influences));
     }
     // The camera's view of the vertices, and one light's.
     const uint64_t views = (scene.lights.empty() ? 1 : 2) * buffers[2].elements * buffers[2].bytes;

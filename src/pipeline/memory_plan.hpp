@@ -9,6 +9,9 @@
 
 namespace gnomon {
 
+/// That no invocation has to go round a loop too often for the scene. Errors: ErrorKind::input.
+void check_turns(const Scene& scene);
+
 /// That the scene's own data can be bound and fits into the budget, beside a little to work with; everything else is cut to
 /// fit. Errors: ErrorKind::out_of_memory, saying how much would do.
 void check_scene(const gpu::Device& device, const Scene& scene, uint64_t keys, uint64_t budget);

@@ -69,6 +69,7 @@ void Sampler::begin_window() {
 
 void Sampler::trace(const Batch& batch) {
     batch_ = batch;
+    film_hits_.reset();
     run_count_ = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
     gpu::Recorder& recorder = device_.recorder();
     tracer_.record(recorder, batch);
@@ -251,16 +252,18 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
         batch_.tile_count);
 }
 
-std::vector<float> Sampler::resolve() {
+const gpu::Buffer& Sampler::resolve() {
     const uint32_t pixels = film_px_.x * film_px_.y;
     gpu::Recorder& recorder = device_.recorder();
     recorder.dispatch("sample/resolve", programs_.get("sample/resolve", {settings_.fractional}), bindings({{"Film", &film_}}),
                       shared::ResolveParams{pixels, settings_.spp, settings_.light_count}, groups_of(pixels, 64));
-    return gpu::download_vector<float>(device_, film_, uint64_t(pixels) * shared::film_planes(settings_.light_count));
+    film_hits_ = recorder.download(hit_total_, 0, 8);
+    return film_;
 }
 
 uint64_t Sampler::hit_count() const {
-    const std::vector<uint32_t> words = gpu::download_vector<uint32_t>(device_, hit_total_, 2);
+    const gpu::Download total = film_hits_ ? *film_hits_ : device_.recorder().download(hit_total_, 0, 8);
+    const std::vector<uint32_t> words = gpu::values_of<uint32_t>(device_, total);
     return uint64_t(words[1]) << 32 | words[0];
 }
 

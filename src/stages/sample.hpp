@@ -58,8 +58,9 @@ public:
     /// Add the batch to the film.
     void shade(const gpu::Buffer& lights, bool lights_move);
 
-    /// Finish the window's film. Its channels, plane-major, rows from the top: as Frame::channels.
-    std::vector<float> resolve();
+    /// Finish the window's film: its channels as floats, plane-major, rows from the top, in the order of Frame::channels.
+    const gpu::Buffer& resolve();
+    /// Of all batches. It came with the film, if that was read since it was finished.
     uint64_t hit_count() const;
     /// cast only where they are counted.
     const ShadowCounts& shadow_counts() const { return counts_; }
@@ -88,6 +89,7 @@ private:
     Batch batch_;
     uint32_t run_count_ = 0;
     ShadowCounts counts_;
+    std::optional<gpu::Download> film_hits_;  ///< When the film was finished.
     gpu::Buffer lit_, queue_, run_hits_, runs_, shadow_groups_, hit_total_, ticket_, film_, depth_values_, shadow_counts_,
         iterators_, asked_, asked_nodes_, srgb_to_linear_;
 };

@@ -65,6 +65,45 @@ TEST(Determinism, SameBitsWithAnyNumberOfThreadsAndEveryLayout) {
         EXPECT_EQ(hash_of_child(threads, "linked"), expected) << threads;
 }
 
+TEST(Determinism, FramesOfALoadedSceneOverUsedOnes) {
+    MovingTriangles two = still_life(1);
+    two.add(spot(0.5f), {at({-3.0, 4.0, 2.0}, {0.0, 0.5, 0.0})});
+    const PosedScene one = still_life(2);
+    const LoadedScene loaded_two = shared_renderer().load(two.scene), loaded_one = shared_renderer().load(one.scene);
+    Frame frame;
+    for (const auto& [width, height, method] : {std::tuple{120u, 90u, "exact"}, {64u, 48u, "fssm"}, {64u, 48u, "tsm"}}) {
+        RenderSettings settings = small_settings(width, height, 4);
+        settings.method = method;
+        settings.keep_samples = width == 120;
+        shared_renderer().render(loaded_two, two.poses, settings, frame);
+        const Frame fresh = shared_renderer().render(two.scene, two.poses, settings);
+        EXPECT_EQ(hash_of(frame), hash_of(fresh));
+        EXPECT_EQ(frame.samples.size(), fresh.samples.size());
+        EXPECT_EQ(frame.stats.counts, fresh.stats.counts);
+        shared_renderer().render(loaded_one, one.poses, settings, frame);
+        EXPECT_EQ(hash_of(frame), hash_of(shared_renderer().render(one.scene, one.poses, settings)));
+        EXPECT_EQ(frame.channels.size(), 7u);
+    }
+}
+
+// What was not rendered yet is zero, whatever was there.
+TEST(Determinism, AStoppedFrameKeepsNothingOfTheOneBefore) {
+    const PosedScene posed = still_life(1);
+    RenderSettings settings = small_settings(200, 160, 4);
+    settings.memory_budget = 6u << 20;
+    const LoadedScene loaded = shared_renderer().load(posed.scene);
+    Frame frame;
+    uint32_t calls = 0;
+    shared_renderer().render(loaded, posed.poses, settings, frame, [&](double) { return ++calls > 0; });
+    ASSERT_GT(calls, 2u);
+    const Frame whole = frame;
+    for (Channel& known : frame.channels) std::ranges::fill(known.values, 7.0f);
+    calls = 0;
+    shared_renderer().render(loaded, posed.poses, settings, frame, [&](double share) { return share == 1.0 || ++calls < 2; });
+    for (const Channel& got : frame.channels) EXPECT_EQ(std::ranges::count(got.values, 7.0f), 0) << got.name;
+    EXPECT_NE(hash_of(frame), hash_of(whole));
+}
+
 class Budget : public testing::TestWithParam<const char*> {};
 
 // Smaller and smaller budgets, until it is an error: the same picture in more and more bands and batches.

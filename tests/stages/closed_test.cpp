@@ -23,7 +23,7 @@ bool reaches(const glm::vec3& centre, const std::vector<Rigid>& keys, CameraKind
     camera.znear = 0.5;
     std::vector<Pose> poses(keys.size());
     for (size_t k = 0; k < keys.size(); ++k) poses[k].cameras = {keys[k]};
-    return may_reach_eye({centre - half, centre + half}, camera_view(camera, poses, 0, 64, 64));
+    return Eye(camera_view(camera, poses, 0, 64, 64)).may_be_reached({centre - half, centre + half});
 }
 
 TEST(ReachesEye, OfAPerspectiveView) {

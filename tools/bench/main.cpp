@@ -21,6 +21,7 @@ struct Options {
     std::vector<std::string> scenes = {bench::kDefaultScenes};
     std::vector<uint32_t> spp;
     uint32_t repeat = 3;
+    std::string pages = RenderSettings().pages;
     uint32_t threads = std::max(1u, std::thread::hardware_concurrency());
     double scale = 1.0;
 };
@@ -54,6 +55,10 @@ void add_options(CLI::App& app, Options& o) {
         ->type_name("F")
         ->check(CLI::Range(0.01, 4.0).description(""))
         ->capture_default_str();
+    app.add_option("--pages", o.pages, "Of S-buffers make all pages, or those that hits ask for")
+        ->type_name("asked|all")
+        ->check(CLI::IsMember({"asked", "all"}).description(""))
+        ->capture_default_str();
     app.add_option("--repeat", o.repeat, "Timed pairs of frames")
         ->type_name("N")
         ->check(CLI::Range(1, 1000).description(""))
@@ -76,6 +81,7 @@ bench::Settings settings_of(const bench::BenchScene& scene, const Options& optio
     settings.shadow_res = scaled(scene.shadow_res, options.scale);
     settings.threads = options.threads;
     settings.repeat = options.repeat;
+    settings.pages = options.pages;
     return settings;
 }
 

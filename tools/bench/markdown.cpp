@@ -61,7 +61,7 @@ std::vector<Cells> for_each_row(const std::vector<Row>& rows, MakeCells make) {
 Cells medians(const Row& row) {
     const bool made = row.refusal.empty();
     const auto of_gnomon = [&](const Summary& summary, int digits) { return made ? fixed(summary.median, digits) : "-"; };
-    return {of_gnomon(row.gnomon.wall, 3), fixed(row.embree.wall.median, 3), of_gnomon(row.ratio, 2),
+    return {of_gnomon(row.gnomon.wall, 4), fixed(row.embree.wall.median, 4), of_gnomon(row.ratio, 2),
             of_gnomon(row.gnomon.cpu, 3),  fixed(row.embree.cpu.median, 3),  of_gnomon(row.cpu_ratio, 2)};
 }
 
@@ -70,15 +70,20 @@ const Cells kMedians = {"gnomon, s", "Embree, s", "Embree / gnomon", "gnomon, CP
 std::string times_table(const std::vector<Row>& rows) {
     Cells head = {"scene", "spp"};
     head.insert(head.end(), kMedians.begin(), kMedians.end());
-    const Cells rest = {"gnomon, least to most", "Embree, least to most", "ratio, least to most", "peer",
-                        "hits agree, %",         "shadows agree, %",      "peer's colour off, %", "peer's visibility off, %"};
+    const Cells rest = {"gnomon, least to most", "Embree, least to most",
+                        "ratio, least to most",  "load, s",
+                        "first frame, s",        "peer",
+                        "hits agree, %",         "shadows agree, %",
+                        "peer's colour off, %",  "peer's visibility off, %"};
     head.insert(head.end(), rest.begin(), rest.end());
     return table("Whole frames", head, for_each_row(rows, [](const Row& row) {
                      const bool made = row.refusal.empty();
                      Cells cells = medians(row);
-                     cells.push_back(made ? range(row.gnomon.wall, 3) : "-");
-                     cells.push_back(range(row.embree.wall, 3));
+                     cells.push_back(made ? range(row.gnomon.wall, 4) : "-");
+                     cells.push_back(range(row.embree.wall, 4));
                      cells.push_back(made ? range(row.ratio, 2) : "-");
+                     cells.push_back(made ? fixed(row.load_seconds, 3) : "-");
+                     cells.push_back(made ? fixed(row.first_seconds, 3) : "-");
                      cells.push_back(name_of(row.build) + ", " + name_of(row.rays));
                      cells.push_back(made ? fixed(100.0 * row.agreement.hit_share(), 4) : "-");
                      cells.push_back(made ? fixed(100.0 * row.agreement.shadow_share(), 4) : "-");
@@ -195,7 +200,8 @@ std::string to_markdown(const Context& context, const std::vector<Row>& rows) {
     const std::string heading = std::to_string(s.width) + "x" + std::to_string(s.height) + " pixels, light views of " +
                                 std::to_string(s.shadow_res) + " texels, " + std::to_string(s.threads) + " threads, " +
                                 std::to_string(s.repeat) + " pairs; " + context.device.name + ", " + context.device.driver +
-                                ". Medians.\n\n";
+                                "; pages: " + s.pages +
+                                ". Medians of frames of a loaded scene, from its poses to the film in host memory.\n\n";
     std::vector<Row> made;
     for (const Row& row : rows) {
         if (row.refusal.empty()) made.push_back(row);

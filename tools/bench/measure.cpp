@@ -9,13 +9,14 @@
 namespace gnomon::bench {
 namespace {
 
-// The frames that one program timed.
+// The frames that one program timed, each in the memory of the one before.
 class Timer {
 public:
     template <class Render>
-    Frame time(Render render) {
+    const Frame& time(Render render) {
         const Seconds start = now();
-        Frame frame = render();
+        render(frame_);
+        const Frame& frame = frame_;
         cpu_.push_back((now() - start).cpu);
         wall_.push_back(frame.stats.wall_seconds);
         double rest = frame.stats.wall_seconds;
@@ -25,6 +26,7 @@ public:
         return frame;
     }
 
+    const Frame& last() const { return frame_; }
     double last_wall() const { return wall_.back(); }
     double last_cpu() const { return cpu_.back(); }
 
@@ -39,6 +41,7 @@ public:
     }
 
 private:
+    Frame frame_;
     std::vector<double> wall_, cpu_, rest_;
     std::vector<std::vector<FrameStats::Stage>> stages_;
 };
@@ -49,6 +52,7 @@ RenderSettings render_settings(const Settings& settings) {
     result.height = settings.height;
     result.spp = settings.spp;
     result.shadow_res = settings.shadow_res;
+    result.pages = settings.pages;
     return result;
 }
 
@@ -94,40 +98,49 @@ Row measure_row(Renderer& renderer, const BenchScene& scene, const PosedScene& p
     row.settings = settings;
     RenderSettings render = render_settings(settings);
     const PeerSettings peer = peer_settings(settings);
-    const auto gnomon_frame = [&] { return renderer.render(posed.scene, posed.poses, render); };
-    const auto embree_frame = [&] { return trace_peer(posed.scene, posed.poses, peer, row.build, row.rays); };
+    LoadedScene loaded;
+    const PeerScene peer_scene(posed.scene, peer.threads);
+    const auto gnomon_frame = [&](Frame& frame) { renderer.render(loaded, posed.poses, render, frame); };
+    const auto embree_frame = [&](Frame& frame) { trace_peer(peer_scene, posed.poses, peer, row.build, row.rays, frame); };
 
-    notify("warm-up");
-    row.refusal = refusal_of(gnomon_frame);
+    notify("load and warm-up");
+    row.refusal = refusal_of([&] {
+        const Seconds start = now();
+        loaded = renderer.load(posed.scene);
+        row.load_seconds = (now() - start).wall;
+        Frame frame;
+        gnomon_frame(frame);
+        row.first_seconds = frame.stats.wall_seconds;
+    });
     if (!row.refusal.empty()) notify("refused: " + row.refusal);
     notify("trials");
-    row.trials = try_variants(posed, peer);
+    row.trials = try_variants(peer_scene, posed.poses, peer);
     row.build = fastest(row.trials).build;
     row.rays = fastest(row.trials).rays;
 
     Timer gnomon, embree;
     std::vector<double> ratios, cpu_ratios;
-    Frame picture;
     for (uint32_t i = 0; i < settings.repeat; ++i) {
         notify("pair " + std::to_string(i + 1) + " of " + std::to_string(settings.repeat));
         if (row.refusal.empty()) row.gnomon_stats = gnomon.time(gnomon_frame).stats;
-        picture = embree.time(embree_frame);
+        embree.time(embree_frame);
         if (!row.refusal.empty()) continue;
         ratios.push_back(embree.last_wall() / gnomon.last_wall());
         cpu_ratios.push_back(embree.last_cpu() / gnomon.last_cpu());
     }
     row.embree = embree.timing();
-    row.embree_stats = picture.stats;
+    row.embree_stats = embree.last().stats;
 
     notify("counts and agreement");
     const Frame exact = exact_frame(posed, settings);
-    row.peer_errors = errors_of(picture, exact);
+    row.peer_errors = errors_of(embree.last(), exact);
     if (!row.refusal.empty()) return row;
     row.gnomon = gnomon.timing();
     row.ratio = summarize(ratios);
     row.cpu_ratio = summarize(cpu_ratios);
     render.count_ranges = render.keep_samples = true;
-    const Frame counted = gnomon_frame();
+    Frame counted;
+    gnomon_frame(counted);
     row.gnomon_stats.counts = counted.stats.counts;
     row.effective = counted.effective;
     row.work = work_of(counted, row.gnomon.stages, renderer.device().type == "cpu" ? settings.threads : 0);

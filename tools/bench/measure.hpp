@@ -22,6 +22,7 @@ struct Settings {
     uint32_t spp = 8;
     uint32_t threads = 1;  ///< Of Embree, and of the device where it is a CPU.
     uint32_t repeat = 3;   ///< Pairs of timed frames, >= 1.
+    std::string pages = RenderSettings().pages;
 };
 
 /// Timed frames of one program.
@@ -36,7 +37,9 @@ struct Row {
     std::string scene, group;
     double value = 0.0;  ///< As BenchScene::value.
     Settings settings;
-    std::string refusal;  ///< Why gnomon made no frame; then there is none of its numbers and no ratio.
+    double load_seconds = 0.0;   ///< Of gnomon: Renderer::load.
+    double first_seconds = 0.0;  ///< Of gnomon: the first frame, for which the driver compiles.
+    std::string refusal;         ///< Why gnomon made no frame; then there is none of its numbers and no ratio.
     Timing gnomon;
     Timing embree;
     Summary ratio;      ///< Embree's wall seconds over gnomon's, pair by pair.
@@ -55,9 +58,9 @@ struct Row {
 /// Told what is about to run.
 using Notify = std::function<void(const std::string& what)>;
 
-/// Warm up, choose the fastest way to ask Embree, time gnomon and Embree in turn, then run gnomon once more for counts, and the
-/// exact reference for the samples that agree. Errors: those of Renderer::render, but for what does not fit into memory, and
-/// trace_reference.
+/// Load the scene, warm up, choose the fastest way to ask Embree, time gnomon and Embree in turn, then run gnomon once more for
+/// counts, and the exact reference for the samples that agree. Errors: those of Renderer::render, but for what does not fit
+/// into memory, and trace_reference.
 Row measure_row(Renderer& renderer, const BenchScene& scene, const PosedScene& posed, const Settings& settings,
                 const Notify& notify);
 

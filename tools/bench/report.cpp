@@ -63,6 +63,7 @@ Json context_json(const Context& context, const std::vector<Row>& rows) {
             {"shadow_res", s.shadow_res},
             {"threads", s.threads},
             {"repetitions", s.repeat},
+            {"pages", s.pages},
             {"scale", context.scale}};
 }
 
@@ -130,6 +131,8 @@ Json gnomon_json(const Row& row) {
         return entry;
     }
     Json entry = entry_json(row, "gnomon", row.gnomon, row.gnomon_stats);
+    entry["load_seconds"] = row.load_seconds;
+    entry["first_frame_seconds"] = row.first_seconds;
     entry["effective"] = row.effective;
     entry["buffers"] = row.gnomon_stats.buffer_bytes;
     entry["peak_bytes"] = row.gnomon_stats.peak_bytes;

@@ -27,19 +27,20 @@ bool cheaper(const Trial& a, const Trial& b) { return a.seconds.cpu < b.seconds.
 
 }  // namespace
 
-std::vector<Trial> try_variants(const PosedScene& posed, const PeerSettings& settings) {
+std::vector<Trial> try_variants(const PeerScene& scene, const std::vector<Pose>& poses, const PeerSettings& settings) {
     std::vector<Trial> trials;
     for (const PeerBuild& build : peer_builds()) {
         const Seconds start = now();
-        const Peer peer(posed.scene, posed.poses, settings, build);
+        const Peer peer(scene, poses, settings, build);
         try_rays(peer, build, now() - start, trials);
     }
     std::vector<Trial> finalists = trials;
     std::sort(finalists.begin(), finalists.end(), cheaper);
     finalists.resize(std::min(kFinalists, finalists.size()));
+    Frame frame;
     for (const Trial& trial : finalists) {
         const Seconds start = now();
-        trace_peer(posed.scene, posed.poses, settings, trial.build, trial.rays);
+        trace_peer(scene, poses, settings, trial.build, trial.rays, frame);
         trials.push_back({trial.build, trial.rays, now() - start, true});
     }
     return trials;

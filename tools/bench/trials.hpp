@@ -20,7 +20,7 @@ struct Trial {
 };
 
 /// Every build with all rays on a part of the tiles, then the best few on the whole frame, in the order in which they ran.
-std::vector<Trial> try_variants(const PosedScene& posed, const PeerSettings& settings);
+std::vector<Trial> try_variants(const PeerScene& scene, const std::vector<Pose>& poses, const PeerSettings& settings);
 
 /// The whole frame of the fewest CPU seconds: all variants use all threads, and what else a machine does adds to wall seconds
 /// only. trials: with at least one whole frame.

@@ -105,7 +105,7 @@ void add_ranges(CLI::App& app, Invocation& invocation) {
         ->type_name("NAME|INDEX|all|none")
         ->capture_default_str();
     command->add_option("--time-steps", o->time_steps, "Linear segments of motion between K+1 exact poses")
-        ->check(CLI::Range(1, 64).description(""))
+        ->check(CLI::Range(1, 128).description(""))
         ->type_name("K")
         ->capture_default_str();
     command->add_option("--json", o->json, "Write it as JSON; - for stdout, instead of the text")->type_name("FILE.json");

@@ -78,10 +78,11 @@ int render(const RenderOptions& options, bool quiet) {
     const Scene drawn = additions.empty() ? std::move(scene) : additions.apply(std::move(scene));
     log_warnings(drawn.warnings, warned);
     const LoadedScene loaded = renderer.load(drawn);
+    Frame frame;
     for (size_t i = 0; i < jobs.size(); ++i) {
         const FrameJob& job = jobs[i];
         const std::vector<Pose> poses = pose_scene(drawn, animation, job.shutter.open, job.shutter.close, options.time_steps);
-        const Frame frame = renderer.render(loaded, poses, settings, [&](double share) {
+        renderer.render(loaded, poses, settings, frame, [&](double share) {
             bar.update((static_cast<double>(i) + share) / frame_count);
             return !interrupted();
         });

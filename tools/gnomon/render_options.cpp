@@ -124,8 +124,8 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
         ->type_name("NAME|INDEX|all|none")
         ->capture_default_str()
         ->group(time);
-    add_parsed(command, "--time-steps", "K", "1", "Linear segments of motion between K+1 exact poses",
-               [&o](Text text, Text name) { o.time_steps = parse_count(text, name, 1, 65535); })
+    add_parsed(command, "--time-steps", "K", "1", "Linear segments of motion between K+1 exact poses, at most 128",
+               [&o](Text text, Text name) { o.time_steps = parse_count(text, name, 1, kMostSegments); })
         ->group(time);
 
     command.add_option("--device", o.device, "Which Vulkan device [the first hardware device, else a CPU]")

@@ -30,15 +30,18 @@ std::vector<PeerLight> lights_of(const Scene& scene, const std::vector<Pose>& po
     return lights;
 }
 
-std::vector<Channel> empty_channels(size_t light_count, size_t pixel_count) {
+// In the memory of those that there are.
+void make_channels(size_t light_count, size_t pixel_count, std::vector<Channel>& channels) {
     std::vector<std::string> names = {"R", "G", "B", "A", "Z"};
     for (size_t i = 0; i < light_count; ++i) {
         names.push_back("visibility." + std::to_string(i));
         names.push_back("visibility_var." + std::to_string(i));
     }
-    std::vector<Channel> channels;
-    for (const std::string& name : names) channels.push_back({name, std::vector<float>(pixel_count)});
-    return channels;
+    channels.resize(names.size());
+    for (size_t i = 0; i < names.size(); ++i) {
+        channels[i].name = names[i];
+        channels[i].values.resize(pixel_count);
+    }
 }
 
 // What Embree's manual asks of threads that trace: denormal numbers are slow.
@@ -61,14 +64,9 @@ RTCBuildQuality embree_quality(PeerQuality quality) {
     return RTC_BUILD_QUALITY_MEDIUM;
 }
 
-bool has_normals(const Scene& scene) {
-    return std::any_of(scene.vertices.begin(), scene.vertices.end(),
-                       [](const Vertex& v) { return v.normal != glm::vec3(0.0f); });
-}
-
 // The normals of all keys, each key by a thread; none where no vertex has one.
-std::vector<std::vector<glm::vec3>> normals_of(const Scene& scene, const std::vector<Pose>& poses) {
-    if (!has_normals(scene)) return {};
+std::vector<std::vector<glm::vec3>> normals_of(const Scene& scene, const Paint& paint, const std::vector<Pose>& poses) {
+    if (!paint.smooth) return {};
     std::vector<std::vector<glm::vec3>> normals(poses.size());
     std::vector<std::jthread> threads;
     for (size_t k = 0; k < poses.size(); ++k) {
@@ -119,21 +117,29 @@ std::vector<PeerRays> peer_rays() {
     return all;
 }
 
+struct PeerScene::Impl {
+    const Scene& scene;
+    Paint paint;
+    RTCDevice embree;
+};
+
+PeerScene::PeerScene(const Scene& scene, uint32_t threads)
+    : impl_(new Impl{scene, Paint(scene), reference::new_embree(threads, true)}) {}
+
+PeerScene::~PeerScene() { rtcReleaseDevice(impl_->embree); }
+
 struct Peer::Impl {
-    Impl(const Scene& scene_, const std::vector<Pose>& poses, const PeerSettings& settings_, const PeerBuild& build)
-        : scene(scene_),
+    Impl(const PeerScene::Impl& loaded, const std::vector<Pose>& poses, const PeerSettings& settings_, const PeerBuild& build)
+        : scene(loaded.scene),
           settings(settings_),
           motion(scene, poses),
-          normals(normals_of(scene, poses)),
+          normals(normals_of(scene, loaded.paint, poses)),
           view(scene.cameras[settings.camera], motion_of(poses, &Pose::cameras, settings.camera),
                {settings.width, settings.height}),
           lights(lights_of(scene, poses)),
-          surface(scene, normals),
+          surface(scene, loaded.paint, normals),
           pose_seconds(clock.lap()),
-          embree(motion, {.least_segments = build.segments,
-                          .threads = settings.threads,
-                          .quality = embree_quality(build.quality),
-                          .wide = true}),
+          embree(motion, {.device = loaded.embree, .least_segments = build.segments, .quality = embree_quality(build.quality)}),
           build_seconds(clock.lap()) {}
 
     uint32_t across() const { return (settings.width + kTileSize - 1) / kTileSize; }
@@ -182,21 +188,20 @@ struct Peer::Impl {
     double build_seconds;
 };
 
-Peer::Peer(const Scene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build)
-    : impl_(std::make_unique<Impl>(scene, poses, settings, build)) {}
+Peer::Peer(const PeerScene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build)
+    : impl_(std::make_unique<Impl>(scene.impl(), poses, settings, build)) {}
 
 Peer::~Peer() = default;
 
 double Peer::prepare_seconds() const { return impl_->pose_seconds + impl_->build_seconds; }
 
-Frame Peer::trace(const PeerRays& rays) const {
+void Peer::trace(const PeerRays& rays, Frame& frame) const {
     const PeerSettings& settings = impl_->settings;
     Clock clock;
-    Frame frame;
     frame.width = settings.width;
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(impl_->lights.size());
-    frame.channels = empty_channels(impl_->lights.size(), impl_->pixel_count());
+    make_channels(impl_->lights.size(), impl_->pixel_count(), frame.channels);
     const Tally tally = impl_->trace_tiles(rays, frame.channels, 1);
     const double trace_seconds = clock.lap();
 
@@ -213,19 +218,25 @@ Frame Peer::trace(const PeerRays& rays) const {
                           {"time_steps", impl_->embree.time_step_count()}};
     frame.stats.wall_seconds = prepare_seconds() + trace_seconds;
     frame.stats.device = "Embree " RTC_VERSION_STRING ", " + std::to_string(settings.threads) + " threads";
-    return frame;
 }
 
 double Peer::trace_part(const PeerRays& rays, uint32_t step, std::vector<Channel>& scratch) const {
-    if (scratch.empty()) scratch = empty_channels(impl_->lights.size(), impl_->pixel_count());
+    make_channels(impl_->lights.size(), impl_->pixel_count(), scratch);
     impl_->trace_tiles(rays, scratch, step);
     const uint32_t traced = (impl_->tile_count() + step - 1) / step;
     return static_cast<double>(traced) / impl_->tile_count();
 }
 
+void trace_peer(const PeerScene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build,
+                const PeerRays& rays, Frame& frame) {
+    Peer(scene, poses, settings, build).trace(rays, frame);
+}
+
 Frame trace_peer(const Scene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build,
                  const PeerRays& rays) {
-    return Peer(scene, poses, settings, build).trace(rays);
+    Frame frame;
+    trace_peer(PeerScene(scene, settings.threads), poses, settings, build, rays, frame);
+    return frame;
 }
 
 }  // namespace gnomon

@@ -45,12 +45,26 @@ struct PeerSettings {
     uint32_t threads = 1;
 };
 
+/// What of a scene does not move, and Embree, for several frames. The scene must outlive this. Errors: ErrorKind::internal.
+class PeerScene {
+public:
+    /// threads: as PeerSettings's.
+    PeerScene(const Scene& scene, uint32_t threads);
+    ~PeerScene();
+
+    struct Impl;
+    const Impl& impl() const { return *impl_; }
+
+private:
+    std::unique_ptr<Impl> impl_;
+};
+
 /// A scene that is posed, and its BVH.
 class Peer {
 public:
     /// The scene must outlive this. Settings as those of trace_reference. Errors: ErrorKind::out_of_memory, internal from
     /// Embree.
-    Peer(const Scene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build);
+    Peer(const PeerScene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build);
     ~Peer();
 
     double prepare_seconds() const;  ///< Posing and building.
@@ -60,7 +74,9 @@ public:
     ///
     /// Rays are in float. Occluders nearer to a hit than 2^-18 of its largest coordinate, measured along the hit triangle's
     /// normal, do not count; Embree's BVH is not robust.
-    Frame trace(const PeerRays& rays) const;
+    ///
+    /// frame: its channels' memory is used again.
+    void trace(const PeerRays& rays, Frame& frame) const;
 
     /// Trace every `step`th tile only. Returns their share of all tiles. scratch: for their pixels; made by the first call that
     /// it is handed to, so that others can be timed without it.
@@ -72,6 +88,9 @@ private:
 };
 
 /// Both steps. Seconds include them.
+void trace_peer(const PeerScene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build,
+                const PeerRays& rays, Frame& frame);
+/// One frame of a scene.
 Frame trace_peer(const Scene& scene, const std::vector<Pose>& poses, const PeerSettings& settings, const PeerBuild& build,
                  const PeerRays& rays);
 

@@ -113,16 +113,17 @@ void PeerLight::add_arriving(const Hits& hits, uint32_t bit, const Vectors& norm
     }
 }
 
-Surface::Surface(const Scene& scene, const std::vector<std::vector<glm::vec3>>& normals)
-    : scene_(scene), normals_(normals), textured_(false) {
+Paint::Paint(const Scene& scene) {
     for (const Material& material : scene.materials) {
-        base_colours_.emplace_back(material.base_color);
-        textured_ = textured_ || material.image >= 0;
+        base_colours.emplace_back(material.base_color);
+        textured = textured || material.image >= 0;
     }
+    smooth = std::any_of(scene.vertices.begin(), scene.vertices.end(),
+                         [](const Vertex& vertex) { return vertex.normal != glm::vec3(0.0f); });
     const auto white = [](const Vertex& vertex) { return glm::vec3(vertex.color) == glm::vec3(1.0f); };
     if (std::all_of(scene.vertices.begin(), scene.vertices.end(), white)) return;
-    colours_.reserve(scene.vertices.size());
-    for (const Vertex& vertex : scene.vertices) colours_.emplace_back(vertex.color);
+    colours.reserve(scene.vertices.size());
+    for (const Vertex& vertex : scene.vertices) colours.emplace_back(vertex.color);
 }
 
 void Surface::get_normals(const Hits& hits, Vectors& normals) const {
@@ -158,15 +159,15 @@ void Surface::get_normals(const Hits& hits, Vectors& normals) const {
 }
 
 void Surface::get_albedos(const Hits& hits, Vectors& albedos) const {
-    const float* base = &base_colours_[0].x;
+    const float* base = &paint_.base_colours[0].x;
     for (uint32_t i = 0; i < hits.count; ++i) {
         const size_t material = size_t{3} * scene_.triangles[hits.triangle[i]].material;
         albedos.x[i] = base[material];
         albedos.y[i] = base[material + 1];
         albedos.z[i] = base[material + 2];
     }
-    if (!colours_.empty()) {
-        const float* colours = &colours_[0].x;
+    if (!paint_.colours.empty()) {
+        const float* colours = &paint_.colours[0].x;
         for (uint32_t i = 0; i < hits.count; ++i) {
             const Corners corners(scene_.triangles[hits.triangle[i]], hits.u[i], hits.v[i]);
             albedos.x[i] *= corners.blend(colours);
@@ -174,7 +175,7 @@ void Surface::get_albedos(const Hits& hits, Vectors& albedos) const {
             albedos.z[i] *= corners.blend(colours + 2);
         }
     }
-    if (!textured_) return;
+    if (!paint_.textured) return;
     for (uint32_t i = 0; i < hits.count; ++i) {
         const Triangle& triangle = scene_.triangles[hits.triangle[i]];
         const Material& material = scene_.materials[triangle.material];

@@ -52,20 +52,29 @@ private:
     Motion motion_;
 };
 
+/// What of a scene's surfaces does not move.
+struct Paint {
+    explicit Paint(const Scene& scene);
+
+    std::vector<glm::vec3> colours;       ///< Of vertices; empty where all are white.
+    std::vector<glm::vec3> base_colours;  ///< Of materials.
+    bool textured = false;
+    bool smooth = false;  ///< A vertex has a normal.
+};
+
 class Surface {
 public:
-    /// normals: of all vertices at each key, or empty. The scene and the normals must outlive this.
-    Surface(const Scene& scene, const std::vector<std::vector<glm::vec3>>& normals);
+    /// normals: of all vertices at each key, or empty. What it is made of must outlive this.
+    Surface(const Scene& scene, const Paint& paint, const std::vector<std::vector<glm::vec3>>& normals)
+        : scene_(scene), paint_(paint), normals_(normals) {}
 
     void get_normals(const Hits& hits, Vectors& normals) const;
     void get_albedos(const Hits& hits, Vectors& albedos) const;
 
 private:
     const Scene& scene_;
+    const Paint& paint_;
     const std::vector<std::vector<glm::vec3>>& normals_;
-    std::vector<glm::vec3> colours_;       ///< Of vertices; empty where all are white.
-    std::vector<glm::vec3> base_colours_;  ///< Of materials.
-    bool textured_;
 };
 
 }  // namespace gnomon::peer

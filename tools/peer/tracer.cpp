@@ -205,8 +205,11 @@ void Tracer::write(std::vector<Channel>& channels) const {
     const float per_sample = 1.0f / static_cast<float>(settings.spp);
     for (size_t slot = 0; slot < pixels_.size(); ++slot) {
         const Sum& sum = sums_[slot];
-        if (sum.hits == 0) continue;
         const size_t at = static_cast<size_t>(pixels_[slot].y) * settings.width + pixels_[slot].x;
+        if (sum.hits == 0) {
+            for (Channel& channel : channels) channel.values[at] = 0.0f;
+            continue;
+        }
         channels[0].values[at] = sum.reflected.x * per_sample;
         channels[1].values[at] = sum.reflected.y * per_sample;
         channels[2].values[at] = sum.reflected.z * per_sample;

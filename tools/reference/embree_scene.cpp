@@ -9,6 +9,15 @@
 namespace gnomon::reference {
 namespace {
 
+void check(RTCDevice device, const char* doing) {
+    const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_NONE) return;
+    if (error == RTC_ERROR_OUT_OF_MEMORY) {
+        throw Error(ErrorKind::out_of_memory, "Embree ran out of memory", doing, "use fewer segments or a smaller scene");
+    }
+    throw Error(ErrorKind::internal, "Embree error " + std::to_string(error), doing, "report this as a bug");
+}
+
 bool stands_still(const SurfaceMotion& surface) {
     for (uint32_t k = 1; k <= surface.segment_count(); ++k) {
         if (surface.key(k) != surface.key(0)) return false;
@@ -18,11 +27,20 @@ bool stands_still(const SurfaceMotion& surface) {
 
 }  // namespace
 
-EmbreeScene::EmbreeScene(const SurfaceMotion& surface, const BuildSettings& settings) {
-    std::string configuration = "threads=" + std::to_string(settings.threads);
-    if (settings.wide) configuration += ",frequency_level=simd512,hugepages=1";
-    device_ = rtcNewDevice(configuration.c_str());
-    check("starting it");
+RTCDevice new_embree(uint32_t threads, bool wide) {
+    std::string configuration = "threads=" + std::to_string(threads);
+    if (wide) configuration += ",frequency_level=simd512,hugepages=1";
+    const RTCDevice device = rtcNewDevice(configuration.c_str());
+    check(device, "starting it");
+    return device;
+}
+
+EmbreeScene::EmbreeScene(const SurfaceMotion& surface, const BuildSettings& settings) : device_(settings.device) {
+    if (device_ != nullptr) {
+        rtcRetainDevice(device_);
+    } else {
+        device_ = new_embree(settings.threads, false);
+    }
     scene_ = rtcNewScene(device_);
     if (settings.robust) rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene_, settings.quality);
@@ -42,14 +60,7 @@ EmbreeScene::~EmbreeScene() {
     rtcReleaseDevice(device_);
 }
 
-void EmbreeScene::check(const char* doing) const {
-    const RTCError error = rtcGetDeviceError(device_);
-    if (error == RTC_ERROR_NONE) return;
-    if (error == RTC_ERROR_OUT_OF_MEMORY) {
-        throw Error(ErrorKind::out_of_memory, "Embree ran out of memory", doing, "use fewer segments or a smaller scene");
-    }
-    throw Error(ErrorKind::internal, "Embree error " + std::to_string(error), doing, "report this as a bug");
-}
+void EmbreeScene::check(const char* doing) const { reference::check(device_, doing); }
 
 void EmbreeScene::attach(const SurfaceMotion& surface, const BuildSettings& settings) {
     // Embree's boxes are linear between its time steps; over a longer way they are wider than the triangles in them.

@@ -7,16 +7,20 @@
 
 namespace gnomon::reference {
 
+/// A new Embree of so many threads; to be released. wide: it may use AVX-512, at which some processors run slower, and huge
+/// pages. Errors: ErrorKind::internal.
+RTCDevice new_embree(uint32_t threads, bool wide);
+
 struct BuildSettings {
+    RTCDevice device = nullptr;   ///< What builds; none: a new one of `threads`.
     uint32_t least_segments = 1;  ///< Linear motion is split into the least multiple of the surface's segments that reaches it.
-    uint32_t threads = 1;         ///< That build.
-    bool robust = false;          ///< Rays do not slip through between triangles, and take longer.
+    uint32_t threads = 1;
+    bool robust = false;  ///< Rays do not slip through between triangles, and take longer.
     RTCBuildQuality quality = RTC_BUILD_QUALITY_MEDIUM;
-    bool wide = false;  ///< Embree may use AVX-512, at which some processors run slower, and huge pages.
     RTCFilterFunctionN occluded_filter = nullptr;  ///< Called for every candidate of a shadow ray.
 };
 
-/// Owns the Embree device and scene. Primitive id = triangle index.
+/// Owns the Embree scene, and a share of its device. Primitive id = triangle index.
 class EmbreeScene {
 public:
     /// Build the BVH. `surface` must outlive this.

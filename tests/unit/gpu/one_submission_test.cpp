@@ -48,6 +48,20 @@ protected:
     Recorder recorder{device};
 };
 
+// More than the staging memory, by several threads.
+TEST_P(OneSubmission, OneDownloadInSeveralParts) {
+    std::vector<uint32_t> numbers(size_t{11} << 20);
+    for (size_t i = 0; i < numbers.size(); ++i) numbers[i] = static_cast<uint32_t>(i * 2654435761u);
+    const Buffer large = upload_new(device, "large", numbers);
+    std::vector<uint32_t> read(numbers.size());
+    const std::span<std::byte> all = std::as_writable_bytes(std::span(read));
+    const std::array parts{all.first(12), all.subspan(12, 0), all.subspan(12, size_t{20} << 20),
+                           all.subspan((size_t{20} << 20) + 12)};
+    recorder.download(large, parts, 0);
+    EXPECT_TRUE(read == numbers);
+    expect_error(ErrorKind::internal, {"download", "large"}, [&] { recorder.download(large, parts, 4); });
+}
+
 TEST_P(OneSubmission, CopiesKeepTheirOrder) {
     recorder.upload(values, bytes_of(std::vector<float>{10, 20, 30, 40}));
     const Download values_before = recorder.download(values, 4, 8);
