@@ -185,8 +185,6 @@ void Pages::refine(bool orthographic, const std::function<void(const Parts&)>& a
         if (new_pages > 0) recorder.copy(kStage, made_pages, 0, pages_, count_ * kPageBytes, new_pages * kPageBytes);
         entries_ = std::move(made_entries);
 
-            fprintf(stderr, "pages %u new %u units %u -> pages %u entries %u\n", params.page_first, params.page_count,
-                    params.unit_count, new_pages, new_entries);
         page_first = count_;
         count_ += new_pages;
         entry_count_ += new_entries;

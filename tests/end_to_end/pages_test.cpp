@@ -60,6 +60,32 @@ TEST(Pages, GiveTheScenesPictures) {
     }
 }
 
+// A dense body in a wide scene: its pages are split, in space, and where it moves in time.
+TEST(Pages, OfADenseBodyAreSplit) {
+    for (const double metres : {0.0, 0.3, 4.0}) {
+        SCOPED_TRACE(metres);
+        const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "pages_stadium.glb";
+        makers::make_stadium(path, {.triangles = 6000, .motion = metres});
+        const PosedScene posed = load_posed(path);
+        RenderSettings settings = small_settings(96, 72, 8, 256);
+        settings.count_ranges = true;
+        for (const char* layout : {"array", "linked"}) {
+            settings.layout = layout;
+            expect_same(posed, settings, 30.0);
+        }
+        settings.layout = "array";
+        settings.pages = "all";
+        const Frame all = shared_renderer().render(posed.scene, posed.poses, settings);
+        settings.pages = "asked";
+        for (const uint64_t budget : {0ull, 24ull << 20, 14ull << 20}) {
+            settings.memory_budget = budget;
+            const Frame asked = shared_renderer().render(posed.scene, posed.poses, settings);
+            EXPECT_EQ(hash_of(asked), hash_of(all)) << "budget " << budget;
+            EXPECT_LT(asked.stats.counts.at("ranges_visited") * 4, all.stats.counts.at("ranges_visited"));
+        }
+    }
+}
+
 // A floor that nothing stands on asks for little: where its two triangles meet. One beside a box, for what lies under it.
 TEST(Pages, AreFewWhereLittleIsShadowed) {
     MovingTriangles scene(1);
