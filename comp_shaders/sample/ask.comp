@@ -20,7 +20,7 @@ void main() {
     ShadowTest test = find_hit(i);
     bool dark = is_inside(test);
     bool asks = test.here && !dark;
-    if (dark) lit[test.slot] &= ~(1u << params.light);
+    if (dark) lit[test.slot] &= ~(1u << lit_bit(params.light));
     if (i < hit_count()) {
         asked[i] = vec4(test.at, test.limit, test.depth);
         asked_items[i] = uvec2(asks ? test.item | (test.behind ? kReversed : 0u) : kNone, floatBitsToUint(test.receiver.t));
