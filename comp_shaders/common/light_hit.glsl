@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hit of the queue as a light's view holds it: what the shadow tests of all methods begin with. It is found again from its sample.
+// A hit of the queue as a light's view holds it: what the shadow tests of all methods begin with. It is found again from its sample. With GN_SHELLS defined: what of it
+// knows closed shells.
 #include "common/stage.glsl"
 #include "shared/light.h"
 #include "math/face.h"
@@ -18,8 +19,10 @@ READ_VEC4(4, light_vertices)
 READ_VEC4(8, positions)
 layout(binding = 9, scalar) buffer Ticket { uint ticket; };
 READ_UINT(11, runs)
+#ifdef GN_SHELLS
 READ_UINT(12, shells)
 READ_UINT(13, closed)
+#endif
 READ_VEC4(41, lights)
 const bool kOrthographic = kLightView == kOrthographicView;
 const bool kFaces = kLightView == kFaceView;
@@ -36,8 +39,10 @@ vec4 light_vertex_at(uint vertex, Receiver h) {
     return vertex_at(a, b - a, h.local_time);
 }
 
+#ifdef GN_SHELLS
 // Is the triangle of a shell that counts as closed?
 bool is_closed(uint triangle) { return fetch_closed(fetch_shells(triangle)) != 0u; }
+#endif
 
 // Metres along the hit's normal within which nothing occludes: 2^-20 of its largest coordinate, but no less than the light space's own rounding.
 float occlusion_tolerance(Receiver h) {
@@ -110,8 +115,10 @@ vec3 light_place(vec4 p) {
     return vec3(p.xy * (1.0 / vec2(params.scale_x, params.scale_y)), kOrthographic ? p.z : p.w);
 }
 
+#ifdef GN_SHELLS
 // Inside a closed shell, which it lights from behind: dark.
 bool is_inside(ShadowTest test) { return kOneSide && test.here && test.behind && is_closed(test.own); }
+#endif
 
 // Depth from which on nothing of what is listed occludes the hit.
 float deepest(ShadowTest test) {

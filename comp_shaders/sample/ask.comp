@@ -7,6 +7,7 @@
 //          the triangle of those who asked, plus one, kNone: they lie on several)
 // Grid:    one invocation per hit
 #extension GL_GOOGLE_include_directive : require
+#define GN_SHELLS
 #include "common/light_hit.glsl"
 #include "math/order.h"
 

@@ -195,6 +195,7 @@ Frame Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData
                      .most_slots = most_slots,
                      .fractional = method.fractional,
                      .asks = asked,
+                     .shells = method.one_sided,
                      .one_sided = closed_triangles > 0,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});

@@ -101,13 +101,15 @@ void Sampler::reserve_walk(uint64_t longest) {
     if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
 }
 
+std::vector<gpu::Binding> Sampler::shell_bindings() const {
+    return {{"shells", &geometry_.scene->shells, Texel::r32_uint}, {"closed", &geometry_.closed, Texel::r32_uint}};
+}
+
 std::vector<gpu::Binding> Sampler::hit_bindings(const LightSide& light) const {
     return {{"queue", &queue_, Texel::r32_uint},
             {"runs", &runs_, Texel::r32_uint},
             {"hits", &tracer_.hits(), Texel::r32_uint},
             {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
-            {"shells", &geometry_.scene->shells, Texel::r32_uint},
-            {"closed", &geometry_.closed, Texel::r32_uint},
             {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
             {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
             {"positions", &geometry_.positions, Texel::rgba32_float},
@@ -166,6 +168,7 @@ uint64_t Sampler::most_groups() const {
 
 void Sampler::ask(const LightSide& light, float tolerance) {
     std::vector<gpu::Binding> all = hit_bindings(light);
+    for (const gpu::Binding& b : shell_bindings()) all.push_back(b);
     all.insert(all.end(), {{"Asked", &asked_},
                            {"AskedItems", &asked_items_},
                            {"Receivers", &light.asked->receivers()},
@@ -191,6 +194,8 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
                            {"asked", &asked_, Texel::rgba32_float},
                            {"asked_items", &asked_items_, Texel::rg32_uint},
                            {"page_of", light.asked ? &light.asked->page_of() : &asked_items_, Texel::r32_uint}});
+    if (settings_.shells)
+        for (const gpu::Binding& b : shell_bindings()) all.push_back(b);
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
     // The first pass over the queue for a plane writes every hit's word, later ones clear bits in it.
     const Window& window = light.bins.window;

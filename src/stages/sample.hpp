@@ -33,6 +33,7 @@ struct SamplerSettings {
     uint64_t most_slots = 0;    ///< Of a batch.
     bool fractional = false;    ///< Visibility is a share, not a bit.
     bool asks = false;          ///< Hits ask for pages.
+    bool shells = true;         ///< The test knows closed shells.
     bool one_sided = false;     ///< Of closed shells the lights' lists hold only what looks away from the light.
     bool keep_depths = false;   ///< Each sample's depth, for batch_depths().
     bool count_ranges = false;  ///< Fill shadow_counts().
@@ -74,6 +75,7 @@ public:
 private:
     /// What every stage binds that finds a hit in the light's view.
     std::vector<gpu::Binding> hit_bindings(const LightSide& light) const;
+    std::vector<gpu::Binding> shell_bindings() const;
     shared::ShadowParams shadow_params(const LightSide& light, const ItemOrder& order, const Band& band, float tolerance) const;
     uint64_t most_groups() const;
     uint32_t plane_of(uint32_t light) const;

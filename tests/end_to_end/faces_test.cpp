@@ -155,6 +155,39 @@ TEST(Faces, ReceiversOnASeam) {
     }
 }
 
+// A lamp just above a vast floor, whose hits are known to a hundredth of the way to the lamp, under a roof of slivers: what
+// lies beyond its face's border by rounding is still hidden by the roof.
+TEST(Faces, NothingLeaksWhereTheyMeet) {
+    MovingTriangles scene(1);
+    add_floor(scene, 0.0f, 1000.0f);
+    for (const float side : {-1.0f, 1.0f}) {
+        // Edges across the border's way, 5e-6 m apart, within 1e-4 m of it; then to the roof's end.
+        float from = 0.0f;
+        for (int i = -20; i <= 21; ++i) {
+            const float to = i == 21 ? 0.03f : 0.005f + 5e-6f * static_cast<float>(i);
+            add_face(scene, {glm::vec3(side * from, 0.005f, -0.03f), glm::vec3(side * to, 0.005f, -0.03f),
+                             glm::vec3(side * to, 0.005f, 0.03f), glm::vec3(side * from, 0.005f, 0.03f)});
+            from = to;
+        }
+    }
+    Camera camera = orthographic(3e-4);
+    camera.znear = 1e-4;
+    for (const glm::dvec3 seam : {glm::dvec3(0.01, 0.0, 0.003), glm::dvec3(-0.01, 0.0, -0.004)}) {
+        MovingTriangles seen = scene;
+        seen.add(camera, {at(seam + glm::dvec3(1e-4, 0.004, 2e-4), seam)});
+        seen.add(point(), {{{0.0, 0.01, 0.0}, {}}});
+        for (const uint32_t resolution : {64u, 1000u}) {
+            const Frame frame = sampled_frame(seen, small_settings(64, 48, 8, resolution));
+            size_t lit = 0;
+            for (const SampleRecord& record : frame.samples) {
+                ASSERT_LT(record.triangle, 2u);
+                lit += record.lit;
+            }
+            EXPECT_EQ(lit, 0u) << resolution;
+        }
+    }
+}
+
 // A light that a closed mesh swallows in the course of the shutter. Until then it counts as open, and so do not others.
 TEST(Faces, LightThatAClosedMeshSwallows) {
     for (const float start : {-1.5f, -0.55f, 0.0f}) {  // Outside at first, touching, inside at first.
