@@ -58,7 +58,8 @@ float occlusion_tolerance(Receiver h) {
 // Turned back by a unit quaternion (x, y, z, w).
 vec3 unturned(vec4 q, vec3 v) { return v + 2.0 * cross3(q.xyz, cross3(q.xyz, v) - q.w * v); }
 
-// From the light to the hit, in the light's own frame at the keys and linear between them, as its faces' views are: the same for all of them, to the bit.
+// From the light toward the hit, of any length, in the light's own frame at the keys and linear between them, as its faces' views are. The same for all of them, to the bit:
+// Vulkan leaves no choice in sums and products.
 vec3 from_light(Receiver h) {
     uint record = light_key(params.light, h.segment, params.camera.segment_count + 1u);
     vec3 origin = fetch_lights(record).xyz, next_origin = fetch_lights(record + 2u).xyz;
@@ -69,9 +70,9 @@ vec3 from_light(Receiver h) {
     [[unroll]] for (int k = 0; k < 3; ++k) {
         vec3 a = unturned(rotation, fetch_positions(key + h.vertex[k]).xyz - origin);
         vec3 b = unturned(next_rotation, fetch_positions(next + h.vertex[k]).xyz - next_origin);
-        d += h.barycentrics[k] * (a + h.local_time * (b - a));
+        d += h.edges[k] * (a + h.local_time * (b - a));
     }
-    return d;
+    return h.edges.x + h.edges.y + h.edges.z < 0.0 ? -d : d;
 }
 
 // Is it this face that the hit belongs to, and does the light shine there?
