@@ -138,8 +138,7 @@ bool Lights::with_room(size_t face, Work work) {
             if (error.kind() != ErrorKind::out_of_memory) throw;
             failure_ = std::current_exception();
             recorder.mark(true);
-            // Alone it need not share what there is, even where nothing had to give way.
-            more = release_others(face) || !alone_;
+            more = release_others(face);
             alone_ = true;
         }
     }

@@ -72,7 +72,7 @@ private:
     void finish_map(size_t face);
     bool release_others(size_t face);
     /// Record the work, which counts to the lights' maps; where it does not fit into memory, release the other faces and try
-    /// again, with all the room there is. False where that is in vain.
+    /// again. False where that is in vain.
     template <class Work>
     bool with_room(size_t face, Work work);
     uint64_t share() const;  ///< Bytes for the bands of one face.

@@ -316,17 +316,6 @@ TEST(Faces, SameBitsHoweverTheWorkIsCut) {
     }
 }
 
-// A two-hundredth of the budget holds no face's ranges, but one face at a time does.
-TEST(Faces, ManyThatFitOneByOne) {
-    MovingTriangles scene = still_life(1);
-    add_sphere(scene, {-0.2f, 1.0f, 0.4f}, 0.4f, 32, {0.3f, 0.2f, 0.1f});
-    for (int i = 0; i < 36; ++i) scene.add(point(), {{{2.0 * std::sin(i), 1.5, 2.0 * std::cos(i)}, {}}});
-    RenderSettings settings = small_settings(16, 12, 2, 8);
-    const uint64_t expected = hash_of(shared_renderer().render(scene.scene, scene.poses, settings));
-    settings.memory_budget = 24u << 20;
-    EXPECT_EQ(hash_of(shared_renderer().render(scene.scene, scene.poses, settings)), expected);
-}
-
 TEST(Faces, MoreLightsThanShadingWalksAreRefused) {
     MovingTriangles scene = still_life(1);
     scene.scene.lights.resize(40'000, point());
