@@ -5,6 +5,7 @@
 struct Receiver {
     uvec3 vertex;        // Of its triangle, in the triangle's own order.
     uint material;
+    vec3 edges;          // The barycentrics times their sum.
     vec3 barycentrics;
     float depth;         // Camera depth z / w.
     float t;
@@ -29,6 +30,7 @@ Receiver fetch_receiver(uint entry, uvec2 pixel, vec3 p, uint stratum, uint spp,
     vec4 p1 = vertex_at(m.a1, m.d1, h.local_time);
     vec4 p2 = vertex_at(m.a2, m.d2, h.local_time);
     vec3 e = edges_at(p0, p1, p2, p.x - 0.5 * float(grid.width), p.y - 0.5 * float(grid.height));
+    h.edges = e;
     h.barycentrics = e / (e.x + e.y + e.z);
     h.depth = orthographic ? depth_orthographic(e, p0, p1, p2) : depth_perspective(e, p0, p1, p2);
     return h;

@@ -48,9 +48,9 @@ ShadowTest shadow_test(uint i) {
 // Bits that are set: the lights that reach the hit, and all that have not been asked yet.
 void write_lit(uint i, ShadowTest test, bool shadowed) {
     if (kFirst) {
-        if (i < hit_count()) lit[test.slot] = shadowed ? ~(1u << params.light) : 0xffffffffu;
+        if (i < hit_count()) lit[test.slot] = shadowed ? ~(1u << lit_bit(params.light)) : 0xffffffffu;
     } else if (shadowed) {
-        lit[test.slot] &= ~(1u << params.light);
+        lit[test.slot] &= ~(1u << lit_bit(params.light));
     }
 }
 

@@ -82,6 +82,27 @@ GN_FN CellBox cell_box(CellTriangle c, float extent, float slack) {
     return box;
 }
 
+// How far beyond a side of the image the nearest of a prism's vertices is, times w; (x, y): outward, half_size: of the image.
+GN_FN float beyond_side(CellTriangle c, float x, float y, float half_size) {
+    vec3 a = vec3(x * c.a0.x + y * c.a0.y - half_size * c.a0.w, x * c.a1.x + y * c.a1.y - half_size * c.a1.w,
+                  x * c.a2.x + y * c.a2.y - half_size * c.a2.w);
+    vec3 b = vec3(x * c.b0.x + y * c.b0.y - half_size * c.b0.w, x * c.b1.x + y * c.b1.y - half_size * c.b1.w,
+                  x * c.b2.x + y * c.b2.y - half_size * c.b2.w);
+    return min(min_of(a.x, a.y, a.z), min_of(b.x, b.y, b.z));
+}
+
+// All of a prism is beyond one side of the image throughout the cell, by more than rounding: what is in front of the eye and
+// what is not, which no bounds in the image hold. The side's plane goes through the eye, and vertices move linearly.
+GN_FN bool beside_image(CellTriangle c, vec2 half_size, float slack) {
+    float mx = max(max_of(abs(c.a0.x), abs(c.a1.x), abs(c.a2.x)), max_of(abs(c.b0.x), abs(c.b1.x), abs(c.b2.x)));
+    float my = max(max_of(abs(c.a0.y), abs(c.a1.y), abs(c.a2.y)), max_of(abs(c.b0.y), abs(c.b1.y), abs(c.b2.y)));
+    float mw = max(max_of(abs(c.a0.w), abs(c.a1.w), abs(c.a2.w)), max_of(abs(c.b0.w), abs(c.b1.w), abs(c.b2.w)));
+    float rounding = kShiftRounding + 2.0f * slack;
+    float across = max(beyond_side(c, 1.0f, 0.0f, half_size.x), beyond_side(c, -1.0f, 0.0f, half_size.x));
+    float down = max(beyond_side(c, 0.0f, 1.0f, half_size.y), beyond_side(c, 0.0f, -1.0f, half_size.y));
+    return across > rounding * (mx + half_size.x * mw) || down > rounding * (my + half_size.y * mw);
+}
+
 // The rows of a tile that the prism may touch, first and last. cy: the tile's centre, reach: half its side, texels.
 GN_FN uvec2 tile_rows(CellTriangle c, float cy, float reach, float extent, float slack) {
     CellBox box = cell_box(c, extent, slack);

@@ -6,6 +6,7 @@
 //          hits that are inside a closed shell: bit `light`), Receivers (per item, common/ask.glsl)
 // Grid:    one invocation per hit
 #extension GL_GOOGLE_include_directive : require
+#define GN_SHELLS
 #include "common/light_hit.glsl"
 
 layout(binding = 5, scalar) writeonly buffer Asked { vec4 asked[]; };
@@ -19,7 +20,7 @@ void main() {
     ShadowTest test = find_hit(i);
     bool dark = is_inside(test);
     bool asks = test.here && !dark;
-    if (dark) lit[test.slot] &= ~(1u << params.light);
+    if (dark) lit[test.slot] &= ~(1u << lit_bit(params.light));
     if (i < hit_count()) {
         asked[i] = vec4(test.at, test.limit, test.depth);
         asked_nodes[i] = uvec2(asks ? test.item | (test.behind ? kReversed : 0u) : kNone, floatBitsToUint(test.receiver.t));

@@ -4,10 +4,11 @@
 // Reads:   hits, lit, triangles, raster_vertices, positions, normals, attributes, materials, texels, srgb_to_linear, lights
 // Writes:  Film of the window (shared/film.h), Depths (per slot, when kDepths)
 // Grid:    one invocation per pixel of the batch's tiles
-// Source:  Lambert; KHR_lights_punctual for the falloff of spots
+// Source:  Lambert; KHR_lights_punctual for the falloff of spots and point lights
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
 #include "shared/film.h"
+#include "shared/light.h"
 #include "math/range.h"
 
 layout(local_size_x = 64) in;
@@ -67,10 +68,10 @@ vec3 forward_of(vec4 q) {
 
 // Incoming light times cosine, without visibility.
 vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
-    uint head = light * (kLightHead + kLightPerKey * params.key_count);
+    uint head = light_record(light, params.key_count);
     vec4 color_kind = fetch_lights(head);
     vec4 cone = fetch_lights(head + 1u);
-    uint key = head + kLightHead + kLightPerKey * h.segment;
+    uint key = light_key(light, h.segment, params.key_count);
     vec3 origin = fetch_lights(key).xyz;
     vec4 rotation = fetch_lights(key + 1u);
     if (kLightsMove) {
@@ -91,7 +92,8 @@ vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
 
 // The share of the light that reaches the hit at `place`.
 float visibility(uint place, uint light) {
-    return kFractional ? uintBitsToFloat(fetch_lit(light * params.lit_stride + place)) : float((fetch_lit(place) >> light) & 1u);
+    uint word = fetch_lit((kFractional ? light : lit_word(light)) * params.lit_stride + place);
+    return kFractional ? uintBitsToFloat(word) : float((word >> lit_bit(light)) & 1u);
 }
 
 void main() {

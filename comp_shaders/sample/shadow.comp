@@ -6,6 +6,7 @@
 // Grid:    one invocation per hit
 // Source:  math/cover.h; a hit triangle does not occlude itself, and nothing within a tolerance along its normal does (occlusion_tolerance)
 #extension GL_GOOGLE_include_directive : require
+#define GN_SHELLS
 #include "common/shadow_test.glsl"
 #include "common/list.glsl"
 #include "common/candidates.glsl"

@@ -44,7 +44,9 @@ void main() {
     vec2 window_first = vec2(params.window_first), window_last = vec2(params.window_last);
     vec2 first = in_front ? floor((box.lower + half_size) * (1.0 / float(kTileSize))) : window_first;
     vec2 last = in_front ? floor((box.upper + half_size) * (1.0 / float(kTileSize))) : window_last;
-    bool visible = seen != 0u && highest_w > 0.0 && first.x <= window_last.x && first.y <= window_last.y && last.x >= window_first.x && last.y >= window_first.y;
+    // The last tiles may reach beyond the image.
+    bool beside = !in_front && beside_image(c, half_size + float(kTileSize), time_slack(grid.cell_count));
+    bool visible = seen != 0u && highest_w > 0.0 && !beside && first.x <= window_last.x && first.y <= window_last.y && last.x >= window_first.x && last.y >= window_first.y;
     uvec2 f = uvec2(clamp(first, window_first, window_last));
     uvec2 l = uvec2(clamp(last, window_first, window_last));
     vec2 view_last = vec2((uvec2(grid.width, grid.height) + kTileSize - 1u) / kTileSize - 1u);

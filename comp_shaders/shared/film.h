@@ -17,12 +17,5 @@ GN_FN uint film_visibility(uint light) { return kFilmLights + 2u * light; }
 
 GN_FN uint film_planes(uint lights) { return kFilmLights + 2u * lights; }
 
-// Words of a light's record in the lights' buffer (vec4 each): colour times intensity and kind; cone scale, cone offset, range;
-// then position and rotation (quaternion x y z w) for each key.
-const uint kLightHead = 2u;
-const uint kLightPerKey = 2u;
-const uint kLightDirectional = 0u;
-const uint kLightSpot = 1u;
-
 GN_END
 #endif

@@ -15,6 +15,10 @@ const uint kCountBlock = 8u;
 const float kFarthest = 3.4e38f;
 // No triangle.
 const uint kNone = 0xffffffffu;
+// How a view projects: from an eye, along its axis, or from an eye as one of a light's faces (math/face.h).
+const uint kPerspectiveView = 0u;
+const uint kOrthographicView = 1u;
+const uint kFaceView = 2u;
 // Set in a list's entry: the triangle with its orientation reversed (vertices 1 and 2 swapped).
 const uint kReversed = 0x80000000u;
 // Prisms whose bounds in a cell hold at most this many tiles are binned without a closer look.
@@ -43,6 +47,8 @@ static_assert(kListChunk * 10u < kMostTurns && kPairChunk < kMostTurns && kMostB
 
 // Strata of a batch: sample/shade goes round twice for each, and twice for each of its lights.
 GN_FN uint most_strata_of(uint light_count) { return kMostTurns / (2u * light_count + 3u); }
+// So that there is one.
+const uint kMostLights = (kMostTurns - 3u) / 2u;
 
 // A view's image and how its prisms are listed.
 struct ViewGrid {
@@ -216,8 +222,8 @@ struct ShadowParams {
     float stratum_length;  // math/sample.h
     uint seed;
     uint light;
-    uint light_width;
-    uint light_height;
+    uint face;        // math/face.h
+    uint light_size;  // Texels along either side of the light's view.
     uint light_cell_count;
     uint light_tile_first;  // Of the window of the light's view.
     uint light_tile_count;
@@ -225,7 +231,8 @@ struct ShadowParams {
     float light_cell_length;  // Of the shutter.
     float scale_x;            // Raster units per metre (orthographic), or per unit slope (perspective).
     float scale_y;
-    float cone_tan2;   // Squared tangent of a spot's outer half angle.
+    float cone;  // Squared tangent of a spot's outer half angle; of a light of several faces its cosine, less than -1 for all
+                 // directions.
     float tolerance;   // The least metres along a hit's normal within which nothing occludes.
     float depth_near;  // Occluders are deeper than this.
     uint item_first;   // Items of the window, or pages, whose ranges are in memory. sample/descend: new pages.
@@ -247,7 +254,8 @@ struct ShadeParams {
     uint key_count;
     uint film_width;  // Pixels of the window, rows from the top: its film.
     uint film_pixels;
-    uint lit_stride;  // Slots from one light's visibility to the next; of fractional visibility only.
+    uint lit_stride;  // Slots from one word of the lights' bits to the next; of fractional visibility, from one light's to the
+                      // next.
 };
 
 struct ResolveParams {

@@ -42,7 +42,9 @@ struct SampleRecord {
     static constexpr uint32_t kMiss = 0xffffffffu;
     uint32_t triangle = kMiss;  ///< Into Scene::triangles.
     float depth = 0.0f;         ///< Metres along the view axis.
-    uint32_t lit = 0;           ///< Bit i: light i reaches the hit; half of it or more, of a method that gives shares.
+    /// Bit i: light i reaches the hit; half of it or more, of a method that gives shares. Of the first 32 lights: Frame::lit
+    /// knows all.
+    uint32_t lit = 0;
 };
 
 struct Channel {
@@ -75,12 +77,29 @@ struct Frame {
     uint32_t light_count = 0;
     std::vector<Channel> channels;  ///< R G B A Z, then visibility.<i> and visibility_var.<i> for each light.
     std::vector<SampleRecord> samples;
+    std::vector<uint32_t> more_lit;  ///< Bits of lights 32 and up: index word * samples.size() + sample, 32 lights a word.
     std::vector<float> sample_visibility;  ///< Of methods that give shares: index sample * light_count + light.
-    /// By light: how many ranges each texel of its view has in the whole shutter (shadow_res squared, rows from the top); empty
-    /// for lights and methods without ranges.
+    /// By light: how many ranges each texel of its view has in the whole shutter (shadow_res squared, rows from the top; of a
+    /// light with several faces one face below the other); empty for methods without ranges.
     std::vector<std::vector<uint32_t>> texel_ranges;
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
+
+    /// Keep so many samples, which no light reaches yet.
+    void keep_samples(size_t count) {
+        samples.resize(count);
+        more_lit.resize(light_count > 32 ? (light_count - 1) / 32 * count : 0);
+    }
+    /// Does a light reach a sample that was kept?
+    bool lit(size_t sample, uint32_t light) const {
+        const uint32_t word = light < 32 ? samples[sample].lit : more_lit[(light / 32 - 1) * samples.size() + sample];
+        return (word >> light % 32 & 1u) != 0;
+    }
+    /// Say that it does.
+    void set_lit(size_t sample, uint32_t light) {
+        uint32_t& word = light < 32 ? samples[sample].lit : more_lit[(light / 32 - 1) * samples.size() + sample];
+        word |= 1u << light % 32;
+    }
 };
 
 /// Called now and then with the share done, 0 to 1. Returning false stops the frame.

@@ -108,7 +108,7 @@ void find_missing_limits(const VkPhysicalDeviceLimits& limits, std::vector<std::
     constexpr uint64_t kTexels = 65536;
     constexpr uint64_t kStorageRange = uint64_t{1} << 27;
     // With texels enough, and where everything is read through storage buffers: methods/temporal/shadow@linked.
-    constexpr uint64_t kStorageBuffers = 4, kStorageReadBuffers = 16;
+    constexpr uint64_t kStorageBuffers = 4, kStorageReadBuffers = 20;
     constexpr uint64_t kTexelBuffers = 16;
     constexpr uint64_t kPushConstantBytes = 128;
     constexpr uint64_t kInvocations = 64;

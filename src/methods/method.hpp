@@ -29,14 +29,14 @@ struct Parameter {
 
 struct Method;
 
-/// A light of a frame, for its shadow map to be made.
+/// A face of a light of a frame, for its shadow map to be made.
 struct LightContext {
     gpu::Device& device;
     Programs& programs;
     const Geometry& geometry;
     const RenderSettings& settings;
     const Method& method;
-    const View& view;  ///< The light's.
+    const View& view;  ///< The face's.
     uint32_t light_ix = 0;
     bool still = false;  ///< Nothing moves.
     uint64_t bytes = 0;  ///< Its share of the memory budget.

@@ -35,6 +35,9 @@ std::vector<glm::dvec3> eye_corners(const View& view) {
     const double x = 0.5 * view.width / view.scale_x * spread, y = 0.5 * view.height / view.scale_y * spread;
     std::vector<glm::dvec3> corners = {{-x, -y, near}, {x, -y, near}, {-x, y, near}, {x, y, near}};
     if (!view.orthographic) corners.emplace_back(0.0);
+    // One of a light's faces stands for all of them: their near planes are the sides of a cube.
+    if (view.face != shared::kOnlyFace)
+        corners.insert(corners.end(), {{-x, -y, -near}, {x, -y, -near}, {-x, y, -near}, {x, y, -near}});
     return corners;
 }
 
@@ -129,7 +132,8 @@ std::vector<uint32_t> closed_shells(const Scene& scene, const std::vector<Pose>&
     std::vector<Eye> eyes;
     eyes.emplace_back(camera);
     for (uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (scene.lights[i].kind == LightKind::spot) eyes.emplace_back(light_view(scene.lights[i], poses, i, bounds.all, 1));
+        if (scene.lights[i].kind != LightKind::directional)
+            eyes.emplace_back(light_faces(scene.lights[i], poses, i, bounds.all, 1).front());
     }
     std::vector<uint32_t> closed;
     for (const Bounds& box : bounds.shells) {

@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// Of each shell 1 where neither the rays of the camera nor those of a spot can start in it during the shutter, else 0; then a
-/// 0 for the triangles of none: Geometry::closed.
+/// Of each shell 1 where neither the rays of the camera nor those of a spot or point light can start in it during the shutter,
+/// else 0; then a 0 for the triangles of none: Geometry::closed.
 std::vector<uint32_t> closed_shells(const Scene& scene, const std::vector<Pose>& poses, const GeometryBounds& bounds,
                                     const View& camera);
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <span>
 
+#include "shared/light.h"
+
 namespace gnomon {
 
 namespace {
@@ -48,22 +50,26 @@ void clear_film(Frame& frame, const WindowRect& rect) {
 
 void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp,
                   bool fractional) {
-    frame.samples.resize(size_t(frame.width) * frame.height * spp);
+    frame.keep_samples(size_t(frame.width) * frame.height * spp);
     if (fractional) frame.sample_visibility.resize(frame.samples.size() * frame.light_count);
-    std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit();
+    const std::vector<uint32_t> hits = sampler.batch_hits();
     std::vector<std::vector<float>> visibility;
-    for (uint32_t light = 0; fractional && light < frame.light_count; ++light)
-        visibility.push_back(sampler.batch_visibility(light));
-    std::vector<float> depths = sampler.batch_depths();
+    std::vector<std::vector<uint32_t>> lit;
+    for (uint32_t light = 0; light < frame.light_count; ++light) {
+        if (fractional) visibility.push_back(sampler.batch_visibility(light));
+        if (!fractional && light % 32 == 0) lit.push_back(sampler.batch_lit(shared::lit_word(light)));
+    }
+    const std::vector<float> depths = sampler.batch_depths();
     for (size_t slot = 0; slot < hits.size(); ++slot) {
         const auto [x, y, s] = slot_sample(batch, grid, slot);
         if (x >= frame.width || y >= frame.height || hits[slot] == shared::kNone) continue;
-        uint32_t lights = frame.light_count == 32 ? ~0u : (1u << frame.light_count) - 1u;
         const size_t place = (size_t(y) * frame.width + x) * spp + s;
-        frame.samples[place] = {hits[slot] & ~shared::kReversed, depths[slot], fractional ? 0u : lit[slot] & lights};
-        for (uint32_t light = 0; light < visibility.size(); ++light) {
-            frame.sample_visibility[place * frame.light_count + light] = visibility[light][slot];
-            frame.samples[place].lit |= visibility[light][slot] >= 0.5f ? 1u << light : 0u;
+        frame.samples[place] = {hits[slot] & ~shared::kReversed, depths[slot], 0u};
+        for (uint32_t light = 0; light < frame.light_count; ++light) {
+            if (fractional) frame.sample_visibility[place * frame.light_count + light] = visibility[light][slot];
+            const bool reached = fractional ? visibility[light][slot] >= 0.5f
+                                            : (lit[shared::lit_word(light)][slot] >> shared::lit_bit(light) & 1u) != 0;
+            if (reached) frame.set_lit(place, light);
         }
     }
 }

@@ -12,6 +12,7 @@
 #include "methods/method.hpp"
 #include "pipeline/closed.hpp"
 #include "pipeline/film.hpp"
+#include "pipeline/light_records.hpp"
 #include "pipeline/lights.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "pipeline/view.hpp"
@@ -41,8 +42,6 @@ struct Renderer::Impl {
 
 namespace {
 
-constexpr uint32_t kMostLights = 32;
-
 void check_range(const char* option, uint64_t value, uint64_t low, uint64_t high) {
     if (value >= low && value <= high) return;
     throw Error(ErrorKind::usage, std::string(option) + " is " + std::to_string(value), "settings",
@@ -63,31 +62,10 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const RenderSetti
         throw Error(ErrorKind::usage, "there is no camera " + std::to_string(settings.camera), scene.path.string(),
                     "the scene has " + std::to_string(scene.cameras.size()));
     }
-    if (scene.lights.size() > kMostLights) {
+    if (scene.lights.size() > shared::kMostLights) {
         throw Error(ErrorKind::input, std::to_string(scene.lights.size()) + " lights", scene.path.string(),
-                    "use at most " + std::to_string(kMostLights));
+                    "use at most " + std::to_string(shared::kMostLights));
     }
-}
-
-// The lights' records, comp_shaders/shared/film.h. A point light contributes nothing yet.
-std::vector<glm::vec4> light_records(const Scene& scene, const std::vector<Pose>& poses) {
-    std::vector<glm::vec4> records;
-    for (size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
-        bool spot = light.kind == LightKind::spot;
-        glm::vec3 power = light.kind == LightKind::point ? glm::vec3(0.0f) : light.color * light.intensity;
-        records.emplace_back(power, std::bit_cast<float>(spot ? shared::kLightSpot : shared::kLightDirectional));
-        double inner = std::cos(static_cast<double>(light.inner_cone)), outer = std::cos(static_cast<double>(light.outer_cone));
-        double scale = 1.0 / std::max(1e-3, inner - outer);
-        records.emplace_back(static_cast<float>(scale), static_cast<float>(-outer * scale), light.range, 0.0f);
-        for (const Pose& pose : poses) {
-            const Rigid& frame = pose.lights[i];
-            records.emplace_back(glm::vec3(frame.translation), 0.0f);
-            records.emplace_back(frame.rotation.x, frame.rotation.y, frame.rotation.z, frame.rotation.w);
-        }
-    }
-    if (records.empty()) records.emplace_back(0.0f);
-    return records;
 }
 
 FrameStats statistics(gpu::Device& device) {
@@ -221,8 +199,8 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
     const uint64_t room = left();
     const bool asked = method.has_s_buffer() && settings.pages == "asked" && !settings.keep_texel_ranges;
     const uint64_t most_slots =
-        batch_slots(device, view, settings.spp, method.fractional ? frame.light_count : 0, asked, room / 4);
-    Sampler sampler(device, programs, geometry, view, bins,
+        batch_slots(device, view, settings.spp, lit_planes(frame.light_count, method.fractional), asked, room / 4);
+    Sampler sampler(device, programs, geometry, view, bins, lights,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
                      .seed = settings.seed,
@@ -230,6 +208,7 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
                      .most_slots = most_slots,
                      .fractional = method.fractional,
                      .asks = asked,
+                     .shells = method.one_sided,
                      .one_sided = closed_triangles > 0,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
@@ -260,7 +239,7 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
                 halve(batches, b);
                 sampler.trace(batches[b]);
             }
-            sampler.shade(lights, !lights_still(poses));
+            sampler.shade(!lights_still(poses));
             if (b + 1 < batches.size()) device.recorder().submit();  // So that progress is what was done.
             if (settings.keep_samples) keep_samples(frame, sampler, batches[b], bins.grid, settings.spp, method.fractional);
         }
@@ -280,7 +259,7 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
     frame.stats.counts["hits"] = hits;
     // Without the count: a test for each hit and light.
-    frame.stats.counts["shadow_tests"] = settings.count_ranges ? sampler.shadow_counts().cast : hits * shadows.map_count();
+    frame.stats.counts["shadow_tests"] = settings.count_ranges ? sampler.shadow_counts().cast : hits * frame.light_count;
     frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;
     frame.stats.counts["ranges_tested"] = sampler.shadow_counts().tested;
     frame.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

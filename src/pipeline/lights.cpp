@@ -30,17 +30,18 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
       light_count_(static_cast<uint32_t>(scene.lights.size())),
       tolerance_(least_tolerance(bounds)) {
     for (uint32_t i = 0; i < light_count_; ++i) {
-        if (scene.lights[i].kind == LightKind::point) continue;
-        Light& light = lights_.emplace_back();
-        light.side.light_ix = i;
-        light.side.view = light_view(scene.lights[i], poses, i, bounds, shared_.settings.shadow_res);
+        for (View& view : light_faces(scene.lights[i], poses, i, bounds, shared_.settings.shadow_res)) {
+            Face& face = faces_.emplace_back();
+            face.side.light_ix = i;
+            face.side.view = std::move(view);
+        }
     }
-    for (Light& light : lights_) {
+    for (Face& face : faces_) {
         contexts_.push_back({shared_.device, shared_.programs, shared_.geometry, shared_.settings, shared_.method,
-                             light.side.view, light.side.light_ix, shared_.still, 0, shared_.layout, shared_.raster,
+                             face.side.view, face.side.light_ix, shared_.still, 0, shared_.layout, shared_.raster,
                              &shared_.camera});
-        const uint64_t all = uint64_t(tiles_across(light.side.view)) * tiles_down(light.side.view);
-        light.windows = windows_of(light.side.view, shared_.method.windowed ? most_tiles(contexts_.back()) : all);
+        const uint64_t all = uint64_t(tiles_across(face.side.view)) * tiles_down(face.side.view);
+        face.windows = windows_of(face.side.view, shared_.method.windowed ? most_tiles(contexts_.back()) : all);
     }
 }
 
@@ -65,8 +66,8 @@ void Lights::prepare() {
     if (shared_.asked) return;  // The pages are known when there are hits.
     // Only a count tells whether the ranges of a window fit. To make one may cut it in two.
     std::optional<BandTooLarge> worst;
-    for (size_t i = 0; i < lights_.size(); ++i) {
-        for (size_t w = 0; w < (shared_.method.has_s_buffer() ? lights_[i].windows.size() : 1); ++w) {
+    for (size_t i = 0; i < faces_.size(); ++i) {
+        for (size_t w = 0; w < (shared_.method.has_s_buffer() ? faces_[i].windows.size() : 1); ++w) {
             try {
                 cut_to_fit(i, w, worst.has_value());
             } catch (const BandTooLarge& error) {
@@ -77,24 +78,24 @@ void Lights::prepare() {
     if (worst) refuse(*worst);
 }
 
-// Step by step for all lights, so that the host waits for all of them at once. Where they do not fit, nothing is made.
+// Step by step for all faces, so that the host waits for all of them at once. Where they do not fit, nothing is made.
 void Lights::make_together() {
     gpu::Recorder& recorder = shared_.device.recorder();
     const bool marked = recorder.mark(true);
     try {
         std::vector<Binning> binnings;
-        for (size_t i = 0; i < lights_.size(); ++i) {
-            LightSide& side = lights_[i].side;
+        for (size_t i = 0; i < faces_.size(); ++i) {
+            LightSide& side = faces_[i].side;
             project(i);
-            binnings.emplace_back(shared_.device, shared_.programs, shared_.geometry, side.view, lights_[i].windows[0],
+            binnings.emplace_back(shared_.device, shared_.programs, shared_.geometry, side.view, faces_[i].windows[0],
                                   listing(), side.bins);
         }
         for (Binning& binning : binnings) binning.count();
         for (Binning& binning : binnings) binning.fill();
-        for (Light& light : lights_) light.side.listed = true;
+        for (Face& face : faces_) face.side.listed = true;
         if (!shared_.asked) {
-            for (size_t i = 0; i < lights_.size(); ++i) map_lists(i);
-            for (size_t i = 0; i < lights_.size(); ++i) finish_map(i);
+            for (size_t i = 0; i < faces_.size(); ++i) map_lists(i);
+            for (size_t i = 0; i < faces_.size(); ++i) finish_map(i);
         }
     } catch (const Error& error) {
         recorder.mark(marked);
@@ -106,25 +107,25 @@ void Lights::make_together() {
 
 bool Lights::release() {
     bool any = false;
-    for (Light& light : lights_) {
-        any = any || light.side.bins.raster_vertices;
-        release_side(light.side);
+    for (Face& face : faces_) {
+        any = any || face.side.bins.raster_vertices;
+        release_side(face.side);
     }
     return any;
 }
 
-bool Lights::release_others(size_t light) {
+bool Lights::release_others(size_t face) {
     bool any = false;
-    for (size_t i = 0; i < lights_.size(); ++i) {
-        if (i == light) continue;
-        any = any || lights_[i].side.bins.raster_vertices;
-        release_side(lights_[i].side);
+    for (size_t i = 0; i < faces_.size(); ++i) {
+        if (i == face) continue;
+        any = any || faces_[i].side.bins.raster_vertices;
+        release_side(faces_[i].side);
     }
     return any;
 }
 
 template <class Work>
-bool Lights::with_room(size_t light, Work work) {
+bool Lights::with_room(size_t face, Work work) {
     gpu::Recorder& recorder = shared_.device.recorder();
     const bool marked = recorder.mark(true);
     bool fits = false, more = true;
@@ -137,7 +138,7 @@ bool Lights::with_room(size_t light, Work work) {
             if (error.kind() != ErrorKind::out_of_memory) throw;
             failure_ = std::current_exception();
             recorder.mark(true);
-            more = release_others(light);
+            more = release_others(face);
             alone_ = true;
         }
     }
@@ -160,26 +161,26 @@ void Lights::refuse(const BandTooLarge& error) const {
 uint64_t Lights::share() const {
     if (alone_) return shared_.device.budget_left();
     const auto unfilled =
-        std::count_if(lights_.begin(), lights_.end(), [](const Light& light) { return light.side.filled == kNotFilled; });
+        std::count_if(faces_.begin(), faces_.end(), [](const Face& face) { return face.side.filled == kNotFilled; });
     return shared_.device.budget_left() / static_cast<uint64_t>(std::max<std::ptrdiff_t>(1, unfilled));
 }
 
-void Lights::project(size_t light) {
-    LightSide& side = lights_[light].side;
+void Lights::project(size_t face) {
+    LightSide& side = faces_[face].side;
     side.map.reset();
     side.filled = kNotFilled;
     if (side.bins.raster_vertices) return;
     side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view,
-                               shared_.method.light_cells(contexts_[light]));
+                               shared_.method.light_cells(contexts_[face]));
 }
 
-void Lights::map_lists(size_t light) {
-    contexts_[light].bytes = share();
-    lights_[light].side.map = shared_.method.make_map(contexts_[light], lights_[light].side.bins);
+void Lights::map_lists(size_t face) {
+    contexts_[face].bytes = share();
+    faces_[face].side.map = shared_.method.make_map(contexts_[face], faces_[face].side.bins);
 }
 
-void Lights::finish_map(size_t light) {
-    Light& made = lights_[light];
+void Lights::finish_map(size_t face) {
+    Face& made = faces_[face];
     LightSide& side = made.side;
     shared_.sampler.reserve_walk(side.map->longest());  // Before the bands take what is left.
     side.bands = side.map->bands(share());
@@ -192,29 +193,29 @@ void Lights::finish_map(size_t light) {
     made.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
 }
 
-bool Lights::fits(size_t light, size_t window) {
-    Light& made = lights_[light];
+bool Lights::fits(size_t face, size_t window) {
+    Face& made = faces_[face];
     LightSide& side = made.side;
     if (side.map && side.bins.window == made.windows[window]) return true;
-    const bool fits = with_room(light, [&] {
-        project(light);
+    const bool fits = with_room(face, [&] {
+        project(face);
         if (!side.listed || side.bins.window != made.windows[window]) {
             side.listed = false;
             list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, made.windows[window], listing(),
                         side.bins);
             side.listed = true;
         }
-        if (shared_.asked) ask(light);
+        if (shared_.asked) ask(face);
         if (side.asked && side.asked->count() == 0) return;
-        map_lists(light);
-        finish_map(light);
+        map_lists(face);
+        finish_map(face);
     });
     if (!fits) release_side(side);
     return fits;
 }
 
-void Lights::ask(size_t light) {
-    LightSide& side = lights_[light].side;
+void Lights::ask(size_t face) {
+    LightSide& side = faces_[face].side;
     side.asked.reset();
     side.asked = std::make_unique<Pages>(shared_.device, shared_.programs, shared_.geometry, side.bins);
     shared_.sampler.ask(side, tolerance_);
@@ -222,12 +223,12 @@ void Lights::ask(size_t light) {
     if (shared_.method.any_texels)
         side.asked->refine(side.view.orthographic,
                            [&](const Pages::Parts& parts) { shared_.sampler.descend(side, parts, tolerance_); });
-    contexts_[light].asked = side.asked.get();
+    contexts_[face].asked = side.asked.get();
 }
 
-void Lights::cut_to_fit(size_t light, size_t window, bool only_count) {
-    Light& made = lights_[light];
-    while (!fits(light, window)) {
+void Lights::cut_to_fit(size_t face, size_t window, bool only_count) {
+    Face& made = faces_[face];
+    while (!fits(face, window)) {
         try {
             std::rethrow_exception(failure_);
         } catch (const BandTooLarge&) {
@@ -238,9 +239,9 @@ void Lights::cut_to_fit(size_t light, size_t window, bool only_count) {
     }
 }
 
-void Lights::make(size_t light, size_t window) {
+void Lights::make(size_t face, size_t window) {
     try {
-        cut_to_fit(light, window, false);
+        cut_to_fit(face, window, false);
     } catch (const BandTooLarge& error) {
         refuse(error);
     }
@@ -249,9 +250,9 @@ void Lights::make(size_t light, size_t window) {
 uint32_t Lights::most_strata() const {
     const uint32_t spp = shared_.settings.spp;
     uint32_t most = std::min(spp, shared::most_strata_of(light_count_));
-    for (const Light& light : lights_) {
-        if (light.side.bands.empty()) continue;
-        const double longest = light.side.bands[0].t_close - light.side.bands[0].t_open;
+    for (const Face& face : faces_) {
+        if (face.side.bands.empty()) continue;
+        const double longest = face.side.bands[0].t_close - face.side.bands[0].t_open;
         most = std::min(most, static_cast<uint32_t>(std::max(1.0, std::floor(longest * spp))));
     }
     return most;
@@ -260,15 +261,15 @@ uint32_t Lights::most_strata() const {
 bool Lights::test_shadows(const Batch& batch, bool may_give_up) {
     const double open = static_cast<double>(batch.stratum_first) / shared_.settings.spp;
     const double close = static_cast<double>(batch.stratum_first + batch.stratum_count) / shared_.settings.spp;
-    for (size_t i = 0; i < lights_.size(); ++i) {
-        Light& light = lights_[i];
-        for (size_t w = 0; w < light.windows.size(); ++w) {
+    for (size_t i = 0; i < faces_.size(); ++i) {
+        Face& face = faces_[i];
+        for (size_t w = 0; w < face.windows.size(); ++w) {
             if (shared_.asked && may_give_up) {
                 if (!fits(i, w)) return false;
             } else {
                 make(i, w);
             }
-            LightSide& side = light.side;
+            LightSide& side = face.side;
             for (size_t b = 0; b < side.bands.size(); ++b) {
                 const Band& band = side.bands[b];
                 if (band.t_close <= open || band.t_open >= close) continue;
@@ -288,27 +289,29 @@ bool Lights::test_shadows(const Batch& batch, bool may_give_up) {
 }
 
 void Lights::report(Frame& frame) const {
-    for (const Light& light : lights_) {
-        const std::string suffix = "." + std::to_string(light.side.light_ix);
-        for (const auto& [tile, counts] : light.counts) {
+    for (const Face& face : faces_) {
+        const std::string suffix = "." + std::to_string(face.side.light_ix);
+        for (const auto& [tile, counts] : face.counts) {
             for (const auto& [name, count] : counts) frame.stats.counts[name + suffix] += count;
         }
-        for (const auto& [name, value] : light.effective) frame.effective[name] = value;
+        for (const auto& [name, value] : face.effective) frame.effective[name] = value;
     }
 }
 
 std::vector<std::vector<uint32_t>> Lights::texel_ranges() {
     std::vector<std::vector<uint32_t>> all(light_count_);
-    for (size_t i = 0; i < lights_.size(); ++i) {
-        Light& light = lights_[i];
-        std::vector<uint32_t>& sums = all[light.side.light_ix];
-        for (size_t w = 0; w < light.windows.size(); ++w) {
+    for (size_t i = 0; i < faces_.size(); ++i) {
+        Face& face = faces_[i];
+        std::vector<uint32_t> sums;
+        for (size_t w = 0; w < face.windows.size(); ++w) {
             make(i, w);
-            const std::vector<uint32_t> ranges = light.side.map->texel_ranges(light.side.bands);
-            light.side.filled = kNotFilled;
+            const std::vector<uint32_t> ranges = face.side.map->texel_ranges(face.side.bands);
+            face.side.filled = kNotFilled;
             sums.resize(ranges.size());
             std::transform(ranges.begin(), ranges.end(), sums.begin(), sums.begin(), std::plus<>());
         }
+        std::vector<uint32_t>& light = all[face.side.light_ix];
+        light.insert(light.end(), sums.begin(), sums.end());
     }
     return all;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a frame. What their shadow tests read is made for a window of a light's view at a time, stays in memory while
-// there is room, and is made again when it is needed again.
+// The lights of a frame, as a list of faces. What their shadow tests read is made for a window of a face's view at a time,
+// stays in memory while there is room, and is made again when it is needed again.
 #pragma once
 
 #include <exception>
@@ -29,10 +29,10 @@ public:
         bool one_sided = false;  ///< Of shells that count as closed list what looks away from the light.
     };
 
-    /// Nothing is made yet. Point lights have no map.
+    /// Nothing is made yet.
     Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses, const Bounds& bounds);
 
-    /// Make each light's first window, and count every window's ranges, so that what cannot be rendered is refused before it is
+    /// Make each face's first window, and count every window's ranges, so that what cannot be rendered is refused before it is
     /// begun. Errors: ErrorKind::out_of_memory where not even a tile of a light's view fits.
     void prepare();
     /// Free what can be made again; false where there is nothing.
@@ -47,12 +47,12 @@ public:
 
     /// Write counts, by "name.light", and what was really used.
     void report(Frame& frame) const;
-    size_t map_count() const { return lights_.size(); }
     /// As Frame::texel_ranges.
     std::vector<std::vector<uint32_t>> texel_ranges();
 
 private:
-    struct Light {
+    /// One projection of a light.
+    struct Face {
         LightSide side;
         std::vector<Window> windows;
         std::map<uint32_t, std::map<std::string, uint64_t>> counts;  ///< Of each window that was made, by its first tile.
@@ -62,29 +62,29 @@ private:
     uint64_t most_tiles(const LightContext& context) const;
     Listing listing() const;
     void make_together();
-    /// Have windows[window] of the light in memory. Where it does not fit, other lights go, then it is halved.
-    void make(size_t light, size_t window);
+    /// Have windows[window] of the face in memory. Where it does not fit, other faces go, then it is halved.
+    void make(size_t face, size_t window);
     // Steps of it.
-    void cut_to_fit(size_t light, size_t window, bool only_count);  ///< Count: nothing need be filled.
-    bool fits(size_t light, size_t window);                         ///< Without halving it; then it is in memory.
-    void project(size_t light);
-    void ask(size_t light);
-    void map_lists(size_t light);
-    void finish_map(size_t light);
-    bool release_others(size_t light);
-    /// Record the work, which counts to the lights' maps; where it does not fit into memory, release the other lights and try
+    void cut_to_fit(size_t face, size_t window, bool only_count);  ///< Count: nothing need be filled.
+    bool fits(size_t face, size_t window);                         ///< Without halving it; then it is in memory.
+    void project(size_t face);
+    void ask(size_t face);
+    void map_lists(size_t face);
+    void finish_map(size_t face);
+    bool release_others(size_t face);
+    /// Record the work, which counts to the lights' maps; where it does not fit into memory, release the other faces and try
     /// again. False where that is in vain.
     template <class Work>
-    bool with_room(size_t light, Work work);
-    uint64_t share() const;  ///< Bytes for the bands of one light.
+    bool with_room(size_t face, Work work);
+    uint64_t share() const;  ///< Bytes for the bands of one face.
     [[noreturn]] void refuse(const BandTooLarge& error) const;
 
     Shared shared_;
-    uint32_t light_count_;  ///< Point lights among them.
+    uint32_t light_count_;
     float tolerance_;
-    std::vector<Light> lights_;
-    std::vector<LightContext> contexts_;  ///< Of each light; its map refers to it.
-    bool alone_ = false;                  ///< The other lights gave way to the one that is worked on.
+    std::vector<Face> faces_;
+    std::vector<LightContext> contexts_;  ///< Of each face; its map refers to it.
+    bool alone_ = false;                  ///< The other faces gave way to the one that is worked on.
     std::exception_ptr failure_;          ///< Why something did not fit.
 };
 

@@ -125,14 +125,13 @@ uint32_t light_cells(uint32_t segments, bool still) {
     return std::max(1u, kLightCells / segments) * segments;
 }
 
-uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities, bool asks,
+uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t lit_planes, bool asks,
                      uint64_t bytes) {
     const gpu::Limits& limits = device.limits();
     const uint64_t all = uint64_t(tiles_across(view)) * tiles_down(view) * spp * shared::kTileTexels;
-    const uint64_t slot_bytes = kSlotBytes + 4 * uint64_t(visibilities) + (asks ? kAskBytes : 0);
-    const uint64_t most =
-        std::min({limits.is_cpu ? kBatchSlots : kGpuBatchSlots, all, bytes / slot_bytes,
-                  limits.max_storage_range / (asks ? 16 : 8), limits.most_elements(4) / std::max(1u, visibilities)});
+    const uint64_t slot_bytes = kSlotBytes + 4 * uint64_t(lit_planes - 1) + (asks ? kAskBytes : 0);
+    const uint64_t most = std::min({limits.is_cpu ? kBatchSlots : kGpuBatchSlots, all, bytes / slot_bytes,
+                                    limits.max_storage_range / (asks ? 16 : 8), limits.most_elements(4) / lit_planes});
     return std::max<uint64_t>(most / shared::kTileTexels, 1) * shared::kTileTexels;
 }
 

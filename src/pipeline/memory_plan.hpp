@@ -29,10 +29,9 @@ uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);
 /// Cells of time of a light's S-buffer whose ranges may be cut where a cell ends.
 uint32_t light_cells(uint32_t segments, bool still);
 
-/// Most slots of one batch, so that its buffers take at most `bytes` and fit into one binding. visibilities: shares that a slot
-/// has; asks: hits ask for pages.
-uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t visibilities, bool asks,
-                     uint64_t bytes);
+/// Most slots of one batch, so that its buffers take at most `bytes` and fit into one binding. lit_planes: words that say
+/// which lights reach a slot; asks: hits ask for pages.
+uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t lit_planes, bool asks, uint64_t bytes);
 
 /// Most tiles of a window of the camera's view, so that its film takes at most `bytes` and fits into one binding.
 uint64_t film_tiles(const gpu::Device& device, uint32_t planes, uint64_t bytes);

@@ -2,7 +2,6 @@
 #include "pipeline/view.hpp"
 
 #include <cmath>
-#include <gnomon/error.hpp>
 #include <limits>
 
 namespace gnomon {
@@ -27,9 +26,8 @@ ViewKey make_key(const glm::dvec3& origin, const glm::dmat4x3& rows, const glm::
     return key;
 }
 
-ViewKey perspective_key(const Rigid& frame, double scale_x, double scale_y) {
-    Axes a = axes_of(frame);
-    return make_key(frame.translation, glm::dmat4x3(scale_x * a.right, -scale_y * a.up, glm::dvec3(0.0), -a.back),
+ViewKey perspective_key(const glm::dvec3& origin, const Axes& a, double scale_x, double scale_y) {
+    return make_key(origin, glm::dmat4x3(scale_x * a.right, -scale_y * a.up, glm::dvec3(0.0), -a.back),
                     glm::dvec4(0.0, 0.0, -1.0, 0.0));
 }
 
@@ -71,11 +69,6 @@ View directional_view(const std::vector<Pose>& poses, uint32_t light_ix, const B
 
 View spot_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
                uint32_t resolution) {
-    constexpr double kWidest = 1.5533430342749532;  // 89 degrees
-    if (light.outer_cone >= kWidest) {
-        throw Error(ErrorKind::input, "the outer cone of spot light '" + light.name + "' is 89 degrees or more from its axis",
-                    "lights[" + std::to_string(light_ix) + "]", "narrow the cone or use several spots");
-    }
     double slope = std::tan(static_cast<double>(light.outer_cone));
     double scale = 0.5 * resolution / slope * (1.0 - 1e-5);
     View view;
@@ -83,8 +76,37 @@ View spot_view(const Light& light, const std::vector<Pose>& poses, uint32_t ligh
     view.depth_near = -1.0f / least_tolerance(bounds);
     view.depth_far = 0.0f;
     view.scale_x = view.scale_y = static_cast<float>(scale);
-    view.cone_tan2 = static_cast<float>(slope * slope);
-    for (const Pose& pose : poses) view.keys.push_back(perspective_key(pose.lights[light_ix], scale, scale));
+    view.cone = static_cast<float>(slope * slope);
+    for (const Pose& pose : poses)
+        view.keys.push_back(perspective_key(pose.lights[light_ix].translation, axes_of(pose.lights[light_ix]), scale, scale));
+    return view;
+}
+
+// Of a light's axes. All are right-handed: triangles have the same orientation in each.
+Axes face_axes(const Axes& light, uint32_t face) {
+    const glm::dvec3 axes[3] = {light.right, light.up, light.back};
+    const uint32_t axis = face / 2;
+    const glm::dvec3 &next = axes[(axis + 1) % 3], &last = axes[(axis + 2) % 3];
+    return face % 2 == 0 ? Axes{last, next, -axes[axis]} : Axes{next, last, axes[axis]};
+}
+
+View face_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds, uint32_t resolution,
+               uint32_t face) {
+    const bool spot = light.kind == LightKind::spot;
+    const double scale = 0.5 * resolution * (1.0 - 1e-5);
+    View view;
+    view.width = view.height = resolution;
+    view.depth_near = -1.0f / least_tolerance(bounds);
+    view.depth_far = 0.0f;
+    view.scale_x = view.scale_y = static_cast<float>(scale);
+    view.face = face;
+    view.cone = spot ? static_cast<float>(std::cos(static_cast<double>(light.outer_cone))) : -2.0f;
+    const Axes world{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+    for (const Pose& pose : poses) {
+        const Rigid& frame = pose.lights[light_ix];
+        const Axes axes = face_axes(spot ? axes_of(frame) : world, face);
+        view.keys.push_back(perspective_key(frame.translation, axes, scale, scale));
+    }
     return view;
 }
 
@@ -107,23 +129,24 @@ View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t 
     for (const Pose& pose : poses) {
         const Rigid& frame = pose.cameras[camera_ix];
         view.keys.push_back(view.orthographic ? orthographic_key(frame, frame.translation, scale, scale, 0.0, 0.0)
-                                              : perspective_key(frame, scale, scale));
+                                              : perspective_key(frame.translation, axes_of(frame), scale, scale));
     }
     return view;
 }
 
-View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
-                uint32_t resolution) {
-    switch (light.kind) {
-        case LightKind::directional:
-            return directional_view(poses, light_ix, bounds, resolution);
-        case LightKind::spot:
-            return spot_view(light, poses, light_ix, bounds, resolution);
-        case LightKind::point:
-            break;
+std::vector<View> light_faces(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
+                              uint32_t resolution) {
+    constexpr double kWidest = 1.5533430342749532;  // 89 degrees
+    constexpr uint32_t kBehind = 4;                 // A light shines along -z.
+    if (light.kind == LightKind::directional) return {directional_view(poses, light_ix, bounds, resolution)};
+    const bool spot = light.kind == LightKind::spot;
+    if (spot && light.outer_cone < kWidest) return {spot_view(light, poses, light_ix, bounds, resolution)};
+    std::vector<View> faces;
+    for (uint32_t face = 0; face < shared::kFaceCount; ++face) {
+        if (spot && face == kBehind) continue;
+        faces.push_back(face_view(light, poses, light_ix, bounds, resolution, face));
     }
-    throw Error(ErrorKind::internal, "a point light has no single view", "lights[" + std::to_string(light_ix) + "]",
-                "report this as a bug");
+    return faces;
 }
 
 float least_tolerance(const Bounds& bounds) {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Views: a projection with motion. Camera, directional and spot lights become the same thing here.
+// Views: a projection with motion. The camera and the faces of lights become the same thing here.
 #pragma once
 
 #include <gnomon/render.hpp>
 #include <gnomon/scene.hpp>
 #include <vector>
 
+#include "math/face.h"
 #include "shared/params.h"
 
 namespace gnomon {
@@ -24,17 +25,25 @@ struct View {
     float depth_far = 0.0f;
     float scale_x = 1.0f;  ///< Raster units per metre (orthographic) or per unit slope (perspective).
     float scale_y = 1.0f;
-    float cone_tan2 = 0.0f;  ///< Spots: squared tangent of the outer half angle.
+    uint32_t face = shared::kOnlyFace;  ///< Of its light's faces (comp_shaders/math/face.h).
+    float cone = 0.0f;  ///< Spots: squared tangent of the outer half angle; of several faces its cosine, points: less than -1.
     std::vector<ViewKey> keys;
+
+    /// kPerspectiveView, kOrthographicView or kFaceView.
+    uint32_t projection() const {
+        if (orthographic) return shared::kOrthographicView;
+        return face == shared::kOnlyFace ? shared::kPerspectiveView : shared::kFaceView;
+    }
 };
 
 /// The camera's view. Its horizontal field is that of the image's aspect.
 View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t camera_ix, uint32_t width, uint32_t height);
 
-/// A directional light's view: its map holds `bounds` at every key. A spot's: its map holds the outer cone.
-/// Errors: ErrorKind::input for a cone that no plane holds (half angle of 89 degrees or more); point lights are not views.
-View light_view(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
-                uint32_t resolution);
+/// The views that a light's shadows are looked up in; each hit belongs to exactly one. A directional light has one, whose map
+/// holds `bounds` at every key; so has a spot, whose map holds the outer cone. A spot of a half angle of 89 degrees or more,
+/// which no plane holds, has five, all but that behind it; a point light has six, which do not turn with it.
+std::vector<View> light_faces(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
+                              uint32_t resolution);
 
 /// The least metres along a hit's normal within which nothing occludes it: 2^-23 of the scene's largest coordinate, the
 /// rounding of a light's space. At most hits 2^-20 of their own largest coordinate is more, and taken.

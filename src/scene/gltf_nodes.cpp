@@ -129,14 +129,7 @@ void build_lights(const Document& document, const std::vector<bool>& shown, Scen
         light.name = model.nodes[n].name.empty() ? from.name : model.nodes[n].name;
         light.node = static_cast<int32_t>(n);
         if (from.type == "spot") light.kind = LightKind::spot;
-        if (from.type == "point") {
-            light.kind = LightKind::point;
-            std::string warning = "the point light";
-            if (!light.name.empty()) warning.append(" '").append(light.name).append("'");
-            scene.warnings.push_back(warning.append(" of ")
-                                         .append(node_label(model, n))
-                                         .append(" contributes nothing: point lights are not supported"));
-        }
+        if (from.type == "point") light.kind = LightKind::point;
         light.color = vector_of(from.color, glm::dvec3(1.0));
         light.intensity = static_cast<float>(from.intensity);
         light.range = static_cast<float>(from.range);

@@ -6,6 +6,7 @@
 
 #include "math/sample.h"
 #include "shared/film.h"
+#include "shared/light.h"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
 
@@ -32,17 +33,24 @@ std::vector<float> srgb_table() {
 
 }  // namespace
 
+uint32_t lit_planes(uint32_t light_count, bool fractional) {
+    return fractional ? std::max(1u, light_count) : shared::lit_words(light_count);
+}
+
 Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
-                 const SamplerSettings& settings)
+                 const gpu::Buffer& lights, const SamplerSettings& settings)
     : device_(device),
       programs_(programs),
       geometry_(geometry),
       view_(view),
       bins_(bins),
+      lights_(lights),
       settings_(settings),
       tracer_(device, programs, geometry, view, bins, "sample/trace", {settings.spp, settings.seed}, settings.most_slots) {
     const uint64_t most_slots = settings.most_slots;
-    lit_ = device.allocate("lit", most_slots * 4 * (settings.fractional ? std::max(1u, settings.light_count) : 1));
+    const uint32_t planes = lit_planes(settings.light_count, settings.fractional);
+    lit_ = device.allocate("lit", most_slots * 4 * planes);
+    lit_written_.resize(planes);
     queue_ = device.allocate("queue", most_slots * 4);
     run_hits_ = device.allocate("run_hits", scan_bytes(most_slots / shared::kScanRun));
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
@@ -73,7 +81,7 @@ void Sampler::trace(const Batch& batch) {
     run_count_ = static_cast<uint32_t>(batch.slot_count() / shared::kScanRun);
     gpu::Recorder& recorder = device_.recorder();
     tracer_.record(recorder, batch);
-    lit_written_ = false;
+    lit_written_.assign(lit_written_.size(), false);
     recorder.fill("sample/compact", run_hits_, 0);
     const shared::CompactParams params{run_count_};
     recorder.dispatch("sample/compact", programs_.get("sample/count_hits"),
@@ -94,16 +102,19 @@ void Sampler::reserve_walk(uint64_t longest) {
     if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
 }
 
+std::vector<gpu::Binding> Sampler::shell_bindings() const {
+    return {{"shells", &geometry_.scene->shells, Texel::r32_uint}, {"closed", &geometry_.closed, Texel::r32_uint}};
+}
+
 std::vector<gpu::Binding> Sampler::hit_bindings(const LightSide& light) const {
     return {{"queue", &queue_, Texel::r32_uint},
             {"runs", &runs_, Texel::r32_uint},
             {"hits", &tracer_.hits(), Texel::r32_uint},
             {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
-            {"shells", &geometry_.scene->shells, Texel::r32_uint},
-            {"closed", &geometry_.closed, Texel::r32_uint},
             {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
             {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
             {"positions", &geometry_.positions, Texel::rgba32_float},
+            {"lights", &lights_, Texel::rgba32_float},
             {"Ticket", &ticket_}};
 }
 
@@ -118,8 +129,8 @@ shared::ShadowParams Sampler::shadow_params(const LightSide& light, const ItemOr
             shared::stratum_length(settings_.spp),
             settings_.seed,
             light.light_ix,
+            light.view.face,
             light.view.width,
-            light.view.height,
             order.cell_count,
             light.bins.window.tile_first,
             light.bins.window.tile_count,
@@ -127,13 +138,27 @@ shared::ShadowParams Sampler::shadow_params(const LightSide& light, const ItemOr
             shared::stratum_length(order.cell_count),
             light.view.scale_x,
             light.view.scale_y,
-            light.view.cone_tan2,
+            light.view.cone,
             tolerance,
             light.view.depth_near,
             band.item_first,
             band.item_count,
             0,
             0};
+}
+
+uint32_t Sampler::plane_of(uint32_t light) const { return settings_.fractional ? light : shared::lit_word(light); }
+
+gpu::Binding Sampler::lit_plane(uint32_t plane) const {
+    const uint64_t bytes = settings_.most_slots * 4;
+    return {"Lit", &lit_, {}, plane * bytes, bytes};
+}
+
+void Sampler::begin_lit(std::string_view stage, uint32_t plane) {
+    if (lit_written_[plane]) return;
+    lit_written_[plane] = true;
+    const uint64_t bytes = settings_.most_slots * 4;
+    device_.recorder().fill(stage, lit_, settings_.fractional ? std::bit_cast<uint32_t>(1.0f) : ~0u, plane * bytes, bytes);
 }
 
 // Of the indirect dispatches over the queue. Rows are of equal length: up to one more in each.
@@ -144,17 +169,17 @@ uint64_t Sampler::most_groups() const {
 
 void Sampler::ask(const LightSide& light, float tolerance) {
     std::vector<gpu::Binding> all = hit_bindings(light);
+    for (const gpu::Binding& b : shell_bindings()) all.push_back(b);
     all.insert(all.end(), {{"Asked", &asked_},
                            {"AskedNodes", &asked_nodes_},
                            {"Receivers", &light.asked->receivers()},
-                           {"Lit", &lit_, {}, 0, settings_.most_slots * 4}});
+                           lit_plane(plane_of(light.light_ix))});
     gpu::Recorder& recorder = device_.recorder();
-    if (!lit_written_) recorder.fill("sample/shadow", lit_, all_lit());
-    lit_written_ = true;
+    begin_lit("sample/shadow", plane_of(light.light_ix));
     recorder.fill("sample/ask", ticket_, 0);
     recorder.dispatch_indirect(
         "sample/ask",
-        programs_.get("sample/ask", {light.view.orthographic, view_.orthographic, tracer_.straddle(), settings_.one_sided}),
+        programs_.get("sample/ask", {light.view.projection(), view_.orthographic, tracer_.straddle(), settings_.one_sided}),
         all, shadow_params(light, {light.bins.grid.cell_count}, {0, light.bins.item_count()}, tolerance), shadow_groups_, 0,
         most_groups());
 }
@@ -173,32 +198,34 @@ void Sampler::descend(const LightSide& light, const Pages::Parts& parts, float t
     recorder.fill("sample/ask", ticket_, 0);
     recorder.dispatch_indirect(
         "sample/ask",
-        programs_.get("sample/descend", {light.view.orthographic, view_.orthographic, tracer_.straddle(), settings_.one_sided}),
+        programs_.get("sample/descend", {light.view.projection(), view_.orthographic, tracer_.straddle(), settings_.one_sided}),
         all, params, shadow_groups_, 0, most_groups());
 }
 
 void Sampler::test_shadows(const LightSide& light, const Band& band, float tolerance) {
     const uint32_t parts = walk_parts(light.map->longest());
     reserve_walk(light.map->longest());
-    const uint64_t slots = settings_.most_slots;
+    const uint32_t plane = plane_of(light.light_ix);
     std::vector<gpu::Binding> all = hit_bindings(light);
-    all.insert(all.end(), {{"Lit", &lit_, {}, settings_.fractional ? light.light_ix * slots * 4 : 0, slots * 4},
+    all.insert(all.end(), {lit_plane(plane),
                            {"ShadowCounts", &shadow_counts_},
                            {"Iterators", &iterators_},
                            {"asked", &asked_, Texel::rgba32_float},
                            {"asked_nodes", &asked_nodes_, Texel::rg32_uint},
                            {"leaves", light.asked ? &light.asked->leaves() : &asked_nodes_, Texel::r32_uint}});
+    if (settings_.shells)
+        for (const gpu::Binding& b : shell_bindings()) all.push_back(b);
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
-    // The first pass over the queue writes every hit's word, later ones clear bits in it.
+    // The first pass over the queue for a plane writes every hit's word, later ones clear bits in it.
     const Window& window = light.bins.window;
     const bool whole =
         window.tile_count == tiles_across(light.view) * tiles_down(light.view) && band.item_count == light.map->item_count();
-    const bool first = !settings_.fractional && !lit_written_ && parts == 1 && whole;
+    const bool first = !settings_.fractional && !lit_written_[plane] && parts == 1 && whole;
     gpu::Recorder& recorder = device_.recorder();
-    if (!lit_written_ && !first) recorder.fill("sample/shadow", lit_, all_lit());
-    lit_written_ = true;
+    if (first) lit_written_[plane] = true;
+    begin_lit("sample/shadow", plane);
     recorder.fill("sample/shadow", shadow_counts_, 0);
-    std::vector<uint32_t> constants = {light.view.orthographic,
+    std::vector<uint32_t> constants = {light.view.projection(),
                                        view_.orthographic,
                                        tracer_.straddle(),
                                        settings_.one_sided,
@@ -225,9 +252,9 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     }
 }
 
-void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
+void Sampler::shade(bool lights_move) {
     gpu::Recorder& recorder = device_.recorder();
-    if (!lit_written_) recorder.fill("sample/shade", lit_, all_lit());
+    for (uint32_t plane = 0; plane < lit_written_.size(); ++plane) begin_lit("sample/shade", plane);
     recorder.dispatch(
         "sample/shade",
         programs_.get("sample/shade", {view_.orthographic, tracer_.straddle(), settings_.keep_depths, geometry_.scene->textured,
@@ -242,7 +269,7 @@ void Sampler::shade(const gpu::Buffer& lights, bool lights_move) {
                   {"materials", &geometry_.scene->materials, Texel::rgba32_uint},
                   {"texels", &geometry_.scene->texels, Texel::rgba32_uint},
                   {"srgb_to_linear", &srgb_to_linear_, Texel::r32_float},
-                  {"lights", &lights, Texel::rgba32_float},
+                  {"lights", &lights_, Texel::rgba32_float},
                   {"Film", &film_},
                   {"Depths", &depth_values_}}),
         shared::ShadeParams{bins_.grid, batch_.tile_first, batch_.tile_count, batch_.stratum_first, batch_.stratum_count,
@@ -267,12 +294,12 @@ uint64_t Sampler::hit_count() const {
     return uint64_t(words[1]) << 32 | words[0];
 }
 
-uint32_t Sampler::all_lit() const { return settings_.fractional ? std::bit_cast<uint32_t>(1.0f) : ~0u; }
-
 std::vector<uint32_t> Sampler::batch_hits() const {
     return gpu::download_vector<uint32_t>(device_, tracer_.hits(), batch_.slot_count());
 }
-std::vector<uint32_t> Sampler::batch_lit() const { return gpu::download_vector<uint32_t>(device_, lit_, batch_.slot_count()); }
+std::vector<uint32_t> Sampler::batch_lit(uint32_t word) const {
+    return gpu::download_vector<uint32_t>(device_, lit_, batch_.slot_count(), word * settings_.most_slots * 4);
+}
 std::vector<float> Sampler::batch_visibility(uint32_t light) const {
     return gpu::download_vector<float>(device_, lit_, batch_.slot_count(), light * settings_.most_slots * 4);
 }

@@ -7,7 +7,7 @@
 
 namespace gnomon {
 
-/// A light's side of the shadow test: what there is of one window of its view.
+/// A light's side of the shadow test: what there is of one window of one of its faces.
 struct LightSide {
     uint32_t light_ix = 0;
     View view;
@@ -33,15 +33,20 @@ struct SamplerSettings {
     uint64_t most_slots = 0;    ///< Of a batch.
     bool fractional = false;    ///< Visibility is a share, not a bit.
     bool asks = false;          ///< Hits ask for pages.
+    bool shells = true;         ///< The test knows closed shells.
     bool one_sided = false;     ///< Of closed shells the lights' lists hold only what looks away from the light.
     bool keep_depths = false;   ///< Each sample's depth, for batch_depths().
     bool count_ranges = false;  ///< Fill shadow_counts().
 };
 
+/// Planes of a word per slot that say which lights reach it: bits of 32 lights, or the share of one.
+uint32_t lit_planes(uint32_t light_count, bool fractional);
+
 class Sampler {
 public:
+    /// lights: their records (comp_shaders/shared/light.h).
     Sampler(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Bins& bins,
-            const SamplerSettings& settings);
+            const gpu::Buffer& lights, const SamplerSettings& settings);
 
     /// Begin the film of the window that the bins hold.
     void begin_window();
@@ -56,7 +61,7 @@ public:
     /// Test the queue against a band of a light's S-buffer that is filled now.
     void test_shadows(const LightSide& light, const Band& band, float tolerance);
     /// Add the batch to the film.
-    void shade(const gpu::Buffer& lights, bool lights_move);
+    void shade(bool lights_move);
 
     /// Finish the window's film: its channels as floats, plane-major, rows from the top, in the order of Frame::channels.
     const gpu::Buffer& resolve();
@@ -66,26 +71,31 @@ public:
     const ShadowCounts& shadow_counts() const { return counts_; }
 
     std::vector<uint32_t> batch_hits() const;                   ///< Per slot.
-    std::vector<uint32_t> batch_lit() const;                    ///< A bit for each light.
+    std::vector<uint32_t> batch_lit(uint32_t word) const;       ///< A bit for each of 32 lights.
     std::vector<float> batch_visibility(uint32_t light) const;  ///< Where it is fractional.
     std::vector<float> batch_depths() const;
 
 private:
     /// What every stage binds that finds a hit in the light's view.
     std::vector<gpu::Binding> hit_bindings(const LightSide& light) const;
+    std::vector<gpu::Binding> shell_bindings() const;
     shared::ShadowParams shadow_params(const LightSide& light, const ItemOrder& order, const Band& band, float tolerance) const;
     uint64_t most_groups() const;
-    uint32_t all_lit() const;  ///< A word of lit_ where nothing shadows.
+    uint32_t plane_of(uint32_t light) const;
+    gpu::Binding lit_plane(uint32_t plane) const;
+    /// Where nothing was written to a plane of this batch, all lights reach all of its slots.
+    void begin_lit(std::string_view stage, uint32_t plane);
 
     gpu::Device& device_;
     Programs& programs_;
     const Geometry& geometry_;
     const View& view_;
     const Bins& bins_;
+    const gpu::Buffer& lights_;
     SamplerSettings settings_;
     Tracer tracer_;
-    bool lit_written_ = false;  ///< Of this batch.
-    glm::uvec2 film_px_{0};     ///< Size of the window.
+    std::vector<bool> lit_written_;  ///< Of this batch, each plane.
+    glm::uvec2 film_px_{0};          ///< Size of the window.
     Batch batch_;
     uint32_t run_count_ = 0;
     ShadowCounts counts_;

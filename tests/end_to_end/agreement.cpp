@@ -61,7 +61,7 @@ Agreement compare_samples(const Frame& frame, const Frame& reference, uint32_t s
         result.depth_error = std::max(result.depth_error, std::abs(double{a.depth} / double{b.depth} - 1.0));
         result.shadow_tests += frame.light_count;
         for (uint32_t light = 0; light < frame.light_count; ++light) {
-            if (((a.lit ^ b.lit) >> light & 1u) != 0) shadows.push_back({i, light});
+            if (frame.lit(i, light) != reference.lit(i, light)) shadows.push_back({i, light});
         }
     }
     result.primary_differ = primaries.size();
@@ -83,7 +83,7 @@ Agreement compare_samples(const Frame& frame, const Frame& reference, uint32_t s
     }
     for (const ShadowTest& test : drawn(shadows)) {
         ++result.shadow_judged;
-        const bool lit = (frame.samples[test.sample].lit >> test.light & 1u) != 0;
+        const bool lit = frame.lit(test.sample, test.light);
         const Verdict verdict = judge.shadow(frame.samples[test.sample].triangle, test.light, lit, where(test.sample));
         if (verdict == Verdict::tolerance) ++result.shadow_tolerance;
         if (verdict == Verdict::closer) ++result.shadow_closer;

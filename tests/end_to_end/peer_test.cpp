@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
                     SceneCase{"tube", [](const fs::path& p) { makers::make_tube(p); }, {}}),
     [](const auto& tested) { return tested.param.name; });
 
-// A camera that turns and flies, a turning sun and a wandering spot of limited range.
+// A camera that turns and flies, a turning sun, a wandering spot and a point light of limited range.
 MovingTriangles everything_moves(const Camera& camera) {
     MovingTriangles scene(2);
     add_floor(scene, 0.0f, 4.0f);
@@ -105,6 +105,8 @@ MovingTriangles everything_moves(const Camera& camera) {
     Light lamp = spot(0.6f, 0.4f, 20.0f);
     lamp.range = 6.0f;
     scene.add(lamp, {at({-1.5, 3.0, 1.5}, {}), at({-1.2, 3.2, 1.5}, {0.2, 0.0, 0.0}), at({-1.0, 3.0, 1.0}, {0.3, 0.0, 0.0})});
+    lamp.kind = LightKind::point;
+    scene.add(lamp, {at({0.1, 1.6, 0.9}, {}), at({0.3, 1.5, 0.8}, {}), at({0.2, 1.7, 1.0}, {})});
     return scene;
 }
 

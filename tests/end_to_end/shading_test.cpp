@@ -226,6 +226,27 @@ TEST(Shading, SpotIsInCandelaWithinItsCone) {
     EXPECT_EQ(channel(Picture(scene, 2).frame, "visibility.0")[0], 0.0f);
 }
 
+TEST(Shading, PointLightIsInCandelaAllAround) {
+    MovingTriangles scene = canvas(1e-5f);
+    Light point;
+    point.kind = LightKind::point;
+    point.intensity = 8.0f * kPi;
+    point.color = {1.0f, 0.5f, 0.25f};
+    const auto lit_from = [&](const glm::dvec3& place) {
+        scene.scene.lights.clear();
+        for (Pose& pose : scene.poses) pose.lights.clear();
+        scene.add(point, {{place, glm::angleAxis(2.0, glm::normalize(glm::dvec3(1.0, 2.0, 3.0)))}});
+        return colour_of(scene);
+    };
+    expect_colour(lit_from({0.0, 0.0, 2.0}), {2.0f, 1.0f, 0.5f});  // Inverse square.
+    // 3, 4, 5: the cosine is 0.6, the distance 5.
+    expect_colour(lit_from({4.0, 0.0, 3.0}), 8.0f / 25.0f * 0.6f * point.color);
+    point.range = 4.0f;  // The window is 1 - (2 / 4)^4.
+    expect_colour(lit_from({0.0, 0.0, 2.0}), 15.0f / 16.0f * glm::vec3(2.0f, 1.0f, 0.5f));
+    expect_colour(lit_from({0.0, 0.0, 4.1}), glm::vec3(0.0f));
+    expect_colour(lit_from({0.0, 0.0, -2.0}), glm::vec3(0.0f));  // Behind the canvas.
+}
+
 TEST(Shading, LightsAddUp) {
     MovingTriangles scene = canvas();
     add_straight_sun(scene);

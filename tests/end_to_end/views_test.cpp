@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cameras and lights of every kind and in awkward places, against the reference.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdio>
-#include <fstream>
-#include <gnomon/error.hpp>
 #include <iostream>
 
 #include "shapes.hpp"
@@ -195,87 +191,12 @@ TEST(Views, SpotConesFromNarrowToWide) {
     }
 }
 
-ErrorKind refusal(const PosedScene& posed, std::string& message) {
-    try {
-        shared_renderer().render(posed.scene, posed.poses, small_settings(8, 8, 1));
-    } catch (const Error& error) {
-        message = error.what();
-        return error.kind();
-    }
-    message = "no error";
-    return ErrorKind::internal;
-}
-
-TEST(Views, SpotsThatNoPlaneHoldsAreRefused) {
-    for (const double degrees : {89.0, 89.9}) {
-        std::string message;
-        const MovingTriangles scene =
-            still_life_lit(spot(static_cast<float>(degrees * kDegree + 1e-6)), {at({1.0, 3.0, 0.8}, {0.0, 0.0, 0.0})});
-        EXPECT_EQ(refusal(scene, message), ErrorKind::input) << message;
-        EXPECT_THAT(message, testing::HasSubstr("89 degrees"));
-    }
-}
-
 TEST(Views, SeveralLightsOfBothKinds) {
     MovingTriangles scene = still_life(1);
     scene.add(spot(0.5f), {at({-3.0, 4.0, 2.0}, {0.0, 0.5, 0.0})});
     scene.add(sun(), {{glm::dvec3(0.0), looking({0.7, -0.6, 0.1})}});
     expect_agreement(scene);
     for (const uint32_t light : {0u, 1u, 2u}) expect_variety(scene, small_settings(60, 45, 8), light);
-}
-
-TEST(Views, ThirtyTwoLightsAndNoMore) {
-    MovingTriangles scene = still_life(1);
-    for (int i = 1; i < 32; ++i) {
-        const glm::dvec3 from(3.0 * std::sin(i), 4.0, 3.0 * std::cos(i));
-        i % 2 == 0 ? scene.add(sun(), {{glm::dvec3(0.0), looking(-from)}}) : scene.add(spot(0.6f), {at(from, glm::dvec3(0.0))});
-    }
-    expect_agreement(scene, small_settings(40, 30, 4, 64));
-    scene.add(sun(), {{glm::dvec3(0.0), looking({0.7, -0.6, 0.1})}});
-    std::string message;
-    EXPECT_EQ(refusal(scene, message), ErrorKind::input) << message;
-    EXPECT_THAT(message, testing::HasSubstr("33 lights"));
-}
-
-TEST(Views, PointLightsReflectNothingAndReachEverything) {
-    MovingTriangles scene = still_life(1);
-    const Frame before = shared_renderer().render(scene.scene, scene.poses, small_settings(40, 30, 8));
-    Light point;
-    point.kind = LightKind::point;
-    point.intensity = 100.0f;
-    scene.add(point, {{{0.0, 3.0, 0.0}, {}}});
-    const Frame after = shared_renderer().render(scene.scene, scene.poses, small_settings(40, 30, 8));
-    for (const char* name : {"R", "G", "B", "A", "Z", "visibility.0", "visibility_var.0"})
-        EXPECT_EQ(channel(before, name), channel(after, name)) << name;
-    const std::vector<float>& alpha = channel(after, "A");
-    for (size_t i = 0; i < alpha.size(); ++i) {
-        ASSERT_EQ(channel(after, "visibility.1")[i], alpha[i] > 0.0f ? 1.0f : 0.0f);
-        ASSERT_EQ(channel(after, "visibility_var.1")[i], 0.0f);
-    }
-}
-
-// Nothing is dropped in silence: the command names a point light that it does not trace.
-TEST(Views, PointLightsAreNamedByTheCommand) {
-    const std::filesystem::path scene = std::filesystem::path(testing::TempDir()) / "gnomon_point_light.gltf";
-    std::ofstream(scene) << R"({
-  "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
-  "extensionsUsed": ["KHR_lights_punctual"],
-  "extensions": {"KHR_lights_punctual": {"lights": [{"name": "bulb", "type": "point"}]}},
-  "nodes": [{"mesh": 0}, {"translation": [0, 0, 2], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
-  "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-  "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}],
-  "bufferViews": [{"buffer": 0, "byteLength": 36}],
-  "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]
-})";
-    const std::string command =
-        "'" GNOMON_COMMAND "' render '" + scene.string() + "' -o '" + scene.string() + ".exr' --size 8x8 --spp 1 2>&1";
-    std::FILE* pipe = popen(command.c_str(), "r");
-    ASSERT_NE(pipe, nullptr);
-    std::string text;
-    for (char buffer[256]; std::fgets(buffer, sizeof buffer, pipe) != nullptr;) text += buffer;
-    EXPECT_EQ(pclose(pipe), 0) << text;
-    EXPECT_THAT(text, testing::HasSubstr("point light"));
-    EXPECT_THAT(text, testing::HasSubstr("bulb"));
 }
 
 }  // namespace

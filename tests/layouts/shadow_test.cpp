@@ -5,6 +5,7 @@
 #include "end_to_end/moving_triangles.hpp"
 #include "math/sample.h"
 #include "oracle/brute_force.hpp"
+#include "pipeline/light_records.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "stage_test.hpp"
 
@@ -27,7 +28,7 @@ protected:
     /// What was hit and lit, index (y * width + x) * kSpp + s; lit: bits of the lights, zero where nothing is hit.
     struct Answers {
         std::vector<uint32_t> triangle, lit;
-        size_t bands = 0;
+        size_t bands = 0, faces = 0;
     };
 
     Answers run(const MovingTriangles& scene, glm::uvec2 size, const ShadowSetup& setup) {
@@ -36,12 +37,18 @@ protected:
         const Geometry geometry = pose_geometry(device(), programs(), scene.scene, scene.poses);
         const View view = camera_view(scene.scene.cameras[0], scene.poses, 0, size.x, size.y);
         const Bins bins = bin_prisms(device(), programs(), geometry, view, segments * kSpp);
-        std::vector<LightSide> sides(scene.scene.lights.size());
+        const auto light_count = static_cast<uint32_t>(scene.scene.lights.size());
+        std::vector<LightSide> sides;
+        for (uint32_t i = 0; i < light_count; ++i) {
+            for (View& face : light_faces(scene.scene.lights[i], scene.poses, i, bounds, setup.resolution)) {
+                LightSide& side = sides.emplace_back();
+                side.light_ix = i;
+                side.view = std::move(face);
+            }
+        }
         Answers answers;
-        for (uint32_t i = 0; i < sides.size(); ++i) {
-            LightSide& side = sides[i];
-            side.light_ix = i;
-            side.view = light_view(scene.scene.lights[i], scene.poses, i, bounds, setup.resolution);
+        answers.faces = sides.size();
+        for (LightSide& side : sides) {
             side.bins = bin_prisms(device(), programs(), geometry, side.view, setup.light_cells);
             const Layout layout = with_ranges(find_layout(setup.layout), false);
             auto s_buffer = std::make_unique<SBuffer>(
@@ -53,11 +60,12 @@ protected:
             side.map = std::move(s_buffer);
             answers.bands = std::max(answers.bands, side.bands.size());
         }
-        Sampler sampler(device(), programs(), geometry, view, bins,
+        const gpu::Buffer lights = gpu::upload_new(device(), "lights", light_records(scene.scene, scene.poses));
+        Sampler sampler(device(), programs(), geometry, view, bins, lights,
                         {.shadow_stage = "sample/shadow@" + setup.layout,
                          .spp = kSpp,
                          .seed = kSeed,
-                         .light_count = static_cast<uint32_t>(sides.size()),
+                         .light_count = light_count,
                          .most_slots = setup.most_slots,
                          .count_ranges = setup.counting});
         answers.triangle.assign(size_t(size.x) * size.y * kSpp, SampleRecord::kMiss);
@@ -70,13 +78,13 @@ protected:
                     sampler.test_shadows(side, band, least_tolerance(bounds));
                 }
             }
-            const std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit();
+            const std::vector<uint32_t> hits = sampler.batch_hits(), lit = sampler.batch_lit(0);
             for (size_t slot = 0; slot < hits.size(); ++slot) {
                 const auto [x, y, stratum] = slot_sample(batch, bins.grid, slot);
                 if (x >= size.x || y >= size.y || hits[slot] == shared::kNone) continue;
                 const size_t index = (size_t(y) * size.x + x) * kSpp + stratum;
                 answers.triangle[index] = hits[slot] & ~shared::kReversed;
-                answers.lit[index] = lit[slot] & ((1u << sides.size()) - 1u);
+                answers.lit[index] = lit[slot] & ((1u << light_count) - 1u);
             }
         }
         return answers;
@@ -109,9 +117,8 @@ glm::dquat turned(double degrees, const glm::dvec3& axis) {
     return glm::angleAxis(glm::radians(degrees), glm::normalize(axis));
 }
 
-/// Triangles flying about in a cube of side 2, over a square that stands still; a camera, a directional light and a spot, all
-/// from above.
-MovingTriangles flying(uint32_t segments, uint32_t count, float size, uint32_t seed) {
+/// Triangles flying about in a cube of side 2, over a square that stands still; a camera from above.
+MovingTriangles flying_unlit(uint32_t segments, uint32_t count, float size, uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> unit(-1.0f, 1.0f);
     const auto vector = [&](float scale) {
@@ -127,6 +134,12 @@ MovingTriangles flying(uint32_t segments, uint32_t count, float size, uint32_t s
     result.add({glm::vec3(-2, -1.5f, -2), glm::vec3(-2, -1.5f, 2), glm::vec3(2, -1.5f, 2)});
     result.add({glm::vec3(-2, -1.5f, -2), glm::vec3(2, -1.5f, 2), glm::vec3(2, -1.5f, -2)});
     result.add(Camera{}, {{glm::dvec3(0, 3, 5), turned(-32, {1, 0, 0})}});
+    return result;
+}
+
+/// With a directional light and a spot from above.
+MovingTriangles flying(uint32_t segments, uint32_t count, float size, uint32_t seed) {
+    MovingTriangles result = flying_unlit(segments, count, size, seed);
     Light sun;
     result.add(sun, {{glm::dvec3(0), turned(-70, {1, 0.2, 0})}});
     Light spot;
@@ -152,6 +165,26 @@ TEST_F(ShadowTest, AgreeWithTheOracleInEveryLayout) {
             EXPECT_EQ(answers.triangle, first.triangle);
             EXPECT_EQ(answers.lit, first.lit);
         }
+    }
+}
+
+// A point light among them that moves, so that they pass from one of its faces to another, and a spot that takes five faces.
+TEST_F(ShadowTest, AgreeWithTheOracleInEveryFace) {
+    for (uint32_t segments : {1u, 3u}) {
+        MovingTriangles scene = flying_unlit(segments, 50, 0.4f, segments + 20);
+        Light point;
+        point.kind = LightKind::point;
+        scene.add(point,
+                  {{glm::dvec3(-0.3, 0.2, 0.1), turned(20, {1, 2, 3})}, {glm::dvec3(0.4, 0.1, 0.3), turned(80, {1, 0, 1})}});
+        Light spot;
+        spot.kind = LightKind::spot;
+        spot.outer_cone = 1.57f;
+        scene.add(spot, {{glm::dvec3(0.1, 0.7, 0.2), turned(-60, {1, 0.4, 0})}});
+        const glm::uvec2 size(50, 38);
+        const Answers answers = run(scene, size, {"array", segments, 1, 1u << 20, 64});
+        EXPECT_EQ(answers.faces, 11u);
+        expect_as_oracle(scene, size, answers);
+        EXPECT_EQ(run(scene, size, {"linked", 4 * segments, 2, 1u << 20, 40}).lit, answers.lit);
     }
 }
 

@@ -30,7 +30,7 @@ public:
           seed_(shared::hash_pcg(seed ^ shared::hash_pcg(1))),
           across_((static_cast<int>(kResolution) + settings.tile - 1) / settings.tile),
           tiles_(static_cast<size_t>(across_ * across_)) {
-        view_ = light_view(scene.scene.lights[0], scene.poses, 0, bounds_of(scene.scene, scene.poses), kResolution);
+        view_ = light_faces(scene.scene.lights[0], scene.poses, 0, bounds_of(scene.scene, scene.poses), kResolution)[0];
     }
 
     /// Where the map shows a point at a time; texels from its corner.

@@ -77,16 +77,15 @@ BruteForce::Ray BruteForce::camera_ray(double x, double y, double t) const {
 
 bool BruteForce::lit(size_t light_ix, uint32_t triangle, const glm::dvec3& point, double t) const {
     const Light& light = scene_.lights[light_ix];
-    if (light.kind == LightKind::point) return true;
     const Rigid place = placement(&Pose::lights, light_ix, t);
     const glm::dvec3 shines = place.rotation * glm::dvec3(0.0, 0.0, -1.0);
     Ray ray{point, -shines, t};
     double end = kInfinity;
-    if (light.kind == LightKind::spot) {
+    if (light.kind != LightKind::directional) {
         const glm::dvec3 from_light = point - place.translation;
         // The angle from the axis by its tangent, which is accurate at every angle.
         const double angle = std::atan2(glm::length(glm::cross(shines, from_light)), glm::dot(shines, from_light));
-        if (angle > double{light.outer_cone}) return true;
+        if (light.kind == LightKind::spot && angle > double{light.outer_cone}) return true;
         ray.direction = glm::normalize(-from_light);
         end = glm::length(from_light);
     }

@@ -14,7 +14,7 @@ public:
     /// poses: at least two, as from pose_scene.
     BruteForce(const Scene& scene, const std::vector<Pose>& poses, uint32_t camera, uint32_t width, uint32_t height);
 
-    /// (x, y) in pixels, y down; t in the shutter, 0 to 1. Point lights reach every hit.
+    /// (x, y) in pixels, y down; t in the shutter, 0 to 1.
     SampleRecord sample(double x, double y, double t) const;
 
 private:

@@ -147,7 +147,7 @@ glm::dvec3 SampleJudge::hit_point(uint32_t triangle, const SamplePoint& sample) 
 
 glm::dvec3 SampleJudge::toward_light(uint32_t light, const glm::dvec3& point, double t) const {
     const Rigid place = placement(&Pose::lights, light, t);
-    if (scene_.lights[light].kind == LightKind::spot) return place.translation - point;
+    if (scene_.lights[light].kind != LightKind::directional) return place.translation - point;
     return place.rotation * glm::dvec3(0.0, 0.0, 1.0);
 }
 
@@ -155,12 +155,11 @@ bool SampleJudge::light_reaches(const glm::dvec3& point, const std::vector<Candi
                                 const glm::dvec3& normal, uint32_t light_ix, double tolerance, double t) const {
     const Light& light = scene_.lights[light_ix];
     const glm::dvec3 to_light = toward_light(light_ix, point, t);
-    double end = kInfinity;
+    const double end = light.kind == LightKind::directional ? kInfinity : 1.0;
     if (light.kind == LightKind::spot) {
         const glm::dvec3 axis = placement(&Pose::lights, light_ix, t).rotation * glm::dvec3(0.0, 0.0, 1.0);
         const double angle = std::atan2(glm::length(glm::cross(axis, to_light)), glm::dot(axis, to_light));
         if (angle > double{light.outer_cone}) return true;
-        end = 1.0;
     }
     for (const Candidate& c : occluders) {
         if (c.triangle == triangle || !pierces(c.corners, point, to_light)) continue;

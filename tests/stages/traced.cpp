@@ -4,6 +4,7 @@
 
 #include "math/cover.h"
 #include "math/sample.h"
+#include "pipeline/light_records.hpp"
 #include "pipeline/memory_plan.hpp"
 
 namespace gnomon::test {
@@ -35,8 +36,9 @@ std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup&
     const Geometry geometry = pose_geometry(device, programs, soup.scene(), soup.poses());
     const View view = soup.view();
     const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells);
+    const gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(soup.scene(), soup.poses()));
     Sampler sampler(
-        device, programs, geometry, view, bins,
+        device, programs, geometry, view, bins, lights,
         {.shadow_stage = "sample/shadow@array", .spp = sampling.spp, .seed = sampling.seed, .most_slots = sampling.most_slots});
     std::vector<uint32_t> found(size_t(soup.width) * soup.height * sampling.spp, 0xdeadbeefu);
     uint64_t hits = 0;

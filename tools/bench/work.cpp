@@ -24,7 +24,7 @@ uint64_t sum_over_lights(const Frame& frame, const std::string& prefix) {
     uint64_t sum = 0;
     for (uint32_t light = 0; light < frame.light_count; ++light) {
         const auto it = frame.stats.counts.find(prefix + std::to_string(light));
-        if (it != frame.stats.counts.end()) sum += it->second;  // Point lights have none.
+        if (it != frame.stats.counts.end()) sum += it->second;
     }
     return sum;
 }
@@ -109,9 +109,9 @@ Agreement agreement_of(const Frame& frame, const Frame& reference) {
         if (a.triangle != b.triangle) continue;
         ++result.hits_agree;
         if (a.triangle == SampleRecord::kMiss) continue;
-        const uint32_t differ = (a.lit ^ b.lit) & (frame.light_count == 32 ? ~0u : (1u << frame.light_count) - 1u);
         result.shadow_tests += frame.light_count;
-        result.shadows_agree += frame.light_count - static_cast<uint32_t>(std::popcount(differ));
+        for (uint32_t light = 0; light < frame.light_count; ++light)
+            result.shadows_agree += frame.lit(i, light) == reference.lit(i, light) ? 1 : 0;
     }
     return result;
 }

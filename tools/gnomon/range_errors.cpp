@@ -99,12 +99,12 @@ double shared_length(const std::vector<Range>& a, const std::vector<Range>& b) {
 
 class Comparison {
 public:
-    Comparison(const View& view, uint32_t segments) : view_(view), per_segment_(1.0 / segments) {}
+    explicit Comparison(uint32_t segments) : per_segment_(1.0 / segments) {}
 
-    /// All texels of a prism in one segment.
-    void add(const CellTriangle& c) {
-        const float half_width = 0.5f * static_cast<float>(view_.width), half_height = 0.5f * static_cast<float>(view_.height);
-        int first_x = 0, first_y = 0, last_x = static_cast<int>(view_.width) - 1, last_y = static_cast<int>(view_.height) - 1;
+    /// All texels of a prism in one segment of a view.
+    void add(const View& view, const CellTriangle& c) {
+        const float half_width = 0.5f * static_cast<float>(view.width), half_height = 0.5f * static_cast<float>(view.height);
+        int first_x = 0, first_y = 0, last_x = static_cast<int>(view.width) - 1, last_y = static_cast<int>(view.height) - 1;
         if (shared::cell_in_front(c)) {
             const shared::CellBox box = shared::cell_box(c, std::max(half_width, half_height), 0.0f);
             const auto bound = [](float v, int most) {
@@ -118,13 +118,13 @@ public:
         if (first_x > last_x || first_y > last_y) return;
         const glm::vec2 centre(0.5f * static_cast<float>(first_x + last_x + 1) - half_width,
                                0.5f * static_cast<float>(first_y + last_y + 1) - half_height);
-        const shared::PrismSurface surface = shared::prism_surface(c, centre.x, centre.y, view_.orthographic);
+        const shared::PrismSurface surface = shared::prism_surface(c, centre.x, centre.y, view.orthographic);
         for (int y = first_y; y <= last_y; ++y) {
             for (int x = first_x; x <= last_x; ++x) {
                 const glm::vec2 at(static_cast<float>(x) + 0.5f - half_width, static_cast<float>(y) + 0.5f - half_height);
                 const shared::PrismFragments f = shared::fragments_at(surface, at.x - centre.x, at.y - centre.y,
-                                                                      view_.orthographic ? -shared::kFarthest : 0.0f);
-                add_pair(c, at, true_ranges(c, at.x, at.y, view_.orthographic), prism_ranges(f, errors_));
+                                                                      view.orthographic ? -shared::kFarthest : 0.0f);
+                add_pair(view, c, at, true_ranges(c, at.x, at.y, view.orthographic), prism_ranges(f, errors_));
             }
         }
     }
@@ -141,7 +141,7 @@ public:
     }
 
 private:
-    void add_pair(const CellTriangle& c, const glm::vec2& at, const std::vector<Range>& truth,
+    void add_pair(const View& view, const CellTriangle& c, const glm::vec2& at, const std::vector<Range>& truth,
                   const std::vector<Range>& prism) {
         if (truth.empty() && prism.empty()) return;
         ++errors_.pairs;
@@ -163,12 +163,12 @@ private:
         constexpr int kTimes = 8;
         for (int i = 1; i < kTimes; ++i) {
             const double time = t.enter + (t.leave - t.enter) * i / kTimes;
-            const double metres = true_metres(c, at.x, at.y, time, view_.orthographic);
+            const double metres = true_metres(c, at.x, at.y, time, view.orthographic);
             linear = std::max(linear, std::fabs(t.metres(time) - metres));
             if (time < p.enter || time > p.leave) continue;
             const double error = std::fabs(p.metres(time) - metres);
             of_prism = std::max(of_prism, error);
-            const double texel = (view_.orthographic ? 1.0 : metres) / double(std::min(view_.scale_x, view_.scale_y));
+            const double texel = (view.orthographic ? 1.0 : metres) / double(std::min(view.scale_x, view.scale_y));
             texels = std::max(texels, error / texel);
         }
         push(lists_.linear_depth, linear);
@@ -176,7 +176,6 @@ private:
         push(lists_.prism_depth_texels, texels);
     }
 
-    const View& view_;
     double per_segment_;
     RangeErrors errors_;
     Lists lists_;
@@ -193,18 +192,20 @@ Spread spread_of(std::vector<float> values) {
     return {sum / static_cast<double>(values.size()), double(*place), double(*std::max_element(place, values.end()))};
 }
 
-RangeErrors range_errors(const Scene& scene, const std::vector<Pose>& poses, const View& view) {
-    std::vector<std::vector<glm::vec4>> keys;
-    for (size_t k = 0; k < poses.size(); ++k) {
-        std::vector<glm::vec4>& key = keys.emplace_back();
-        for (const glm::vec3& p : posed_positions(scene, poses[k])) key.push_back(project(view.keys[k], p));
-    }
-    Comparison comparison(view, static_cast<uint32_t>(poses.size() - 1));
-    for (size_t k = 0; k + 1 < keys.size(); ++k) {
-        for (const Triangle& t : scene.triangles) {
-            const auto& v = t.vertex;
-            comparison.add(
-                {keys[k][v[0]], keys[k][v[1]], keys[k][v[2]], keys[k + 1][v[0]], keys[k + 1][v[1]], keys[k + 1][v[2]]});
+RangeErrors range_errors(const Scene& scene, const std::vector<Pose>& poses, const std::vector<View>& faces) {
+    Comparison comparison(static_cast<uint32_t>(poses.size() - 1));
+    for (const View& face : faces) {
+        std::vector<std::vector<glm::vec4>> keys;
+        for (size_t k = 0; k < poses.size(); ++k) {
+            std::vector<glm::vec4>& key = keys.emplace_back();
+            for (const glm::vec3& p : posed_positions(scene, poses[k])) key.push_back(project(face.keys[k], p));
+        }
+        for (size_t k = 0; k + 1 < keys.size(); ++k) {
+            for (const Triangle& t : scene.triangles) {
+                const auto& v = t.vertex;
+                comparison.add(face, {keys[k][v[0]], keys[k][v[1]], keys[k][v[2]], keys[k + 1][v[0]], keys[k + 1][v[1]],
+                                      keys[k + 1][v[2]]});
+            }
         }
     }
     return comparison.result();

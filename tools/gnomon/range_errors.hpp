@@ -38,7 +38,7 @@ struct RangeErrors {
     Spread prism_depth_texels;  ///< The same in widths of a texel there.
 };
 
-/// Of the light's view. poses: the keys of the segments.
-RangeErrors range_errors(const Scene& scene, const std::vector<Pose>& poses, const View& view);
+/// Of the light's faces, taken together. poses: the keys of the segments.
+RangeErrors range_errors(const Scene& scene, const std::vector<Pose>& poses, const std::vector<View>& faces);
 
 }  // namespace gnomon::cli

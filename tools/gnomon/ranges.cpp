@@ -77,10 +77,8 @@ int ranges(const Options& o) {
                     "the scene has " + std::to_string(scene.lights.size()));
     }
     const Light& light = scene.lights[o.light];
-    if (light.kind == LightKind::point)
-        throw Error(ErrorKind::input, "a point light has no view yet", o.scene, "choose another --light");
-    const View view = light_view(light, poses, o.light, bounds_of(scene, poses), o.shadow_res);
-    const RangeErrors errors = range_errors(scene, poses, view);
+    const RangeErrors errors =
+        range_errors(scene, poses, light_faces(light, poses, o.light, bounds_of(scene, poses), o.shadow_res));
     if (!o.json.empty()) write_json(o.json, errors_json(errors));
     if (o.json != "-") print_errors(errors);
     return kDone;

@@ -77,7 +77,7 @@ glm::vec3 PeerLight::direction(const glm::vec3& point, float t) const {
 }
 
 bool PeerLight::in_cone(const glm::vec3& to_light, float t) const {
-    return glm::dot(to_light, motion_.at(t).rotation[2]) >= cos_outer_ * glm::length(to_light);
+    return kind_ == LightKind::point || glm::dot(to_light, motion_.at(t).rotation[2]) >= cos_outer_ * glm::length(to_light);
 }
 
 glm::vec3 PeerLight::arriving(const glm::vec3& point, float t, const glm::vec3& normal) const {
@@ -88,20 +88,19 @@ glm::vec3 PeerLight::arriving(const glm::vec3& point, float t, const glm::vec3& 
     const float distance2 = glm::dot(to_light, to_light);
     if (distance2 == 0.0f) return glm::vec3(0.0f);
     const glm::vec3 direction = to_light / std::sqrt(distance2);
-    const float cone =
-        std::clamp((glm::dot(direction, axis) - cos_outer_) / std::max(0.001f, cos_inner_ - cos_outer_), 0.0f, 1.0f);
+    const float edge = (glm::dot(direction, axis) - cos_outer_) / std::max(0.001f, cos_inner_ - cos_outer_);
+    const float cone = kind_ == LightKind::point ? 1.0f : std::clamp(edge, 0.0f, 1.0f);
     const float ratio2 = range_ > 0.0f ? distance2 / (range_ * range_) : 0.0f;
     const float window = std::clamp(1.0f - ratio2 * ratio2, 0.0f, 1.0f);
     return power_ * (cone * cone * window / distance2 * std::max(0.0f, glm::dot(normal, direction)));
 }
 
-void PeerLight::add_arriving(const Hits& hits, uint32_t bit, const Vectors& normals, Vectors& sums) const {
-    if (!shadows()) return;
+void PeerLight::add_arriving(const Hits& hits, const Vectors& normals, Vectors& sums) const {
     if (still_sun()) {
         const glm::vec3 axis = motion_.at(0.0f).rotation[2], power = power_;
         for (uint32_t i = 0; i < hits.count; ++i) {
             const float cosine = normals.x[i] * axis.x + normals.y[i] * axis.y + normals.z[i] * axis.z;
-            const float share = (hits.lit[i] & bit) != 0 && cosine > 0.0f ? cosine : 0.0f;
+            const float share = hits.lit[i] != 0 && cosine > 0.0f ? cosine : 0.0f;
             sums.x[i] += power.x * share;
             sums.y[i] += power.y * share;
             sums.z[i] += power.z * share;
@@ -109,7 +108,7 @@ void PeerLight::add_arriving(const Hits& hits, uint32_t bit, const Vectors& norm
         return;
     }
     for (uint32_t i = 0; i < hits.count; ++i) {
-        if ((hits.lit[i] & bit) != 0) sums.set(i, sums.at(i) + arriving(hits.point.at(i), hits.t[i], normals.at(i)));
+        if (hits.lit[i] != 0) sums.set(i, sums.at(i) + arriving(hits.point.at(i), hits.t[i], normals.at(i)));
     }
 }
 
@@ -179,7 +178,7 @@ void Surface::get_albedos(const Hits& hits, Vectors& albedos) const {
     for (uint32_t i = 0; i < hits.count; ++i) {
         const Triangle& triangle = scene_.triangles[hits.triangle[i]];
         const Material& material = scene_.materials[triangle.material];
-        if (material.image < 0 || hits.lit[i] == 0) continue;
+        if (material.image < 0 || hits.lights[i] == 0) continue;
         const auto uv_of = [&](size_t corner) { return scene_.vertices[triangle.vertex[corner]].uv; };
         const glm::vec2 uv = (1.0f - hits.u[i] - hits.v[i]) * uv_of(0) + hits.u[i] * uv_of(1) + hits.v[i] * uv_of(2);
         albedos.set(i, albedos.at(i) *

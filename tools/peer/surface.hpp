@@ -24,8 +24,9 @@ struct Hits {
     alignas(64) float u[kBatch], v[kBatch];  ///< Barycentrics of the second and third corner.
     float t[kBatch], depth[kBatch];
     uint32_t triangle[kBatch];
-    uint32_t slot[kBatch];  ///< Of its pixel.
-    uint32_t lit[kBatch];   ///< Bit i: light i reaches it.
+    uint32_t slot[kBatch];    ///< Of its pixel.
+    uint32_t lit[kBatch];     ///< 1: the light that was asked last reaches it.
+    uint32_t lights[kBatch];  ///< How many reach it of those that were asked.
 };
 
 class PeerLight {
@@ -34,14 +35,13 @@ public:
 
     bool directional() const { return kind_ == LightKind::directional; }
     bool still_sun() const { return directional() && motion_.still(); }
-    bool shadows() const { return kind_ != LightKind::point; }  ///< Points are not traced, nor do they light.
 
-    /// From a hit to the light: unit length for a directional light, all the way for a spot.
+    /// From a hit to the light: unit length for a directional light, else all the way.
     glm::vec3 direction(const glm::vec3& point, float t) const;
-    /// Spots: is the direction inside the outer cone?
+    /// Is the direction inside a spot's outer cone? Not asked of directional lights.
     bool in_cone(const glm::vec3& to_light, float t) const;
-    /// Add the light that arrives at each hit times the cosine, where the bit of `lit` says that nothing occludes it.
-    void add_arriving(const Hits& hits, uint32_t bit, const Vectors& normals, Vectors& sums) const;
+    /// Add the light that arrives at each hit times the cosine, where `lit` says that nothing occludes it.
+    void add_arriving(const Hits& hits, const Vectors& normals, Vectors& sums) const;
 
 private:
     glm::vec3 arriving(const glm::vec3& point, float t, const glm::vec3& normal) const;

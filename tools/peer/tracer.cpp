@@ -44,8 +44,12 @@ void Tracer::trace(uint32_t x_px, uint32_t y_px, std::vector<Channel>& channels)
     for (uint32_t first = 0; first < sample_count; first += kBatch) {
         rays_.count = std::min(kBatch, sample_count - first);
         trace_primary();
-        for (uint32_t light = 0; light < world_.lights.size(); ++light) trace_shadows(light);
-        shade();
+        begin_shading();
+        for (uint32_t light = 0; light < world_.lights.size(); ++light) {
+            trace_shadows(light);
+            shade(light);
+        }
+        add_to_film();
     }
     const Stopwatch stopwatch(tally_.shade_seconds);
     write(channels);
@@ -114,7 +118,7 @@ void Tracer::find_hits() {
         hits.depth[count] = rays_.tfar[i];
         hits.triangle[count] = rays_.triangle[i];
         hits.slot[count] = slots_[i];
-        hits.lit[count++] = 0;
+        hits.lights[count++] = 0;
     }
     hits.count = count;
 }
@@ -143,7 +147,6 @@ uint32_t Tracer::aim_at_sun(const PeerLight& light) {
 
 // Shadow rays of the hits that the light shines at.
 uint32_t Tracer::aim_at(const PeerLight& light) {
-    if (!light.shadows()) return 0;
     uint32_t count = 0;
     for (uint32_t i = 0; i < hits_.count; ++i) {
         const glm::vec3 point = hits_.point.at(i), size = glm::abs(point);
@@ -167,35 +170,42 @@ uint32_t Tracer::aim_at(const PeerLight& light) {
 void Tracer::trace_shadows(uint32_t light_ix) {
     const Stopwatch stopwatch(tally_.shadow_seconds);
     const PeerLight& light = world_.lights[light_ix];
-    const uint32_t bit = 1u << light_ix;
-    for (uint32_t i = 0; i < hits_.count; ++i) hits_.lit[i] |= bit;
+    std::fill_n(hits_.lit, hits_.count, 1u);
     rays_.count = light.still_sun() ? aim_at_sun(light) : aim_at(light);
     occluded(world_.scene, world_.rays.calls, rays_);
     for (uint32_t i = 0; i < rays_.count; ++i) {
-        if (rays_.tfar[i] < 0.0f) hits_.lit[shadowed_[i]] &= ~bit;
+        if (rays_.tfar[i] < 0.0f) hits_.lit[shadowed_[i]] = 0;
     }
     tally_.shadow_tests += rays_.count;
 }
 
-void Tracer::shade() {
+void Tracer::begin_shading() {
     const Stopwatch stopwatch(tally_.shade_seconds);
-    const size_t light_count = world_.lights.size();
     world_.surface.get_normals(hits_, normals_);
-    world_.surface.get_albedos(hits_, albedos_);
     std::fill_n(arriving_.x, hits_.count, 0.0f);
     std::fill_n(arriving_.y, hits_.count, 0.0f);
     std::fill_n(arriving_.z, hits_.count, 0.0f);
-    for (uint32_t light = 0; light < light_count; ++light) {
-        world_.lights[light].add_arriving(hits_, 1u << light, normals_, arriving_);
+}
+
+void Tracer::shade(uint32_t light) {
+    const Stopwatch stopwatch(tally_.shade_seconds);
+    const size_t light_count = world_.lights.size();
+    world_.lights[light].add_arriving(hits_, normals_, arriving_);
+    for (uint32_t i = 0; i < hits_.count; ++i) {
+        hits_.lights[i] += hits_.lit[i];
+        lit_counts_[hits_.slot[i] * light_count + light] += hits_.lit[i];
     }
+}
+
+void Tracer::add_to_film() {
+    const Stopwatch stopwatch(tally_.shade_seconds);
+    world_.surface.get_albedos(hits_, albedos_);
     for (uint32_t i = 0; i < hits_.count; ++i) {
         const uint32_t slot = hits_.slot[i];
         Sum& sum = sums_[slot];
         ++sum.hits;
         sum.depth += hits_.depth[i];
         sum.reflected += arriving_.at(i) * albedos_.at(i) * std::numbers::inv_pi_v<float>;
-        for (size_t light = 0; light < light_count; ++light)
-            lit_counts_[slot * light_count + light] += hits_.lit[i] >> light & 1u;
     }
 }
 

@@ -53,7 +53,9 @@ private:
     void trace_shadows(uint32_t light);
     uint32_t aim_at_sun(const PeerLight& light);
     uint32_t aim_at(const PeerLight& light);
-    void shade();
+    void begin_shading();
+    void shade(uint32_t light);
+    void add_to_film();
     void write(std::vector<Channel>& channels) const;
 
     const World& world_;

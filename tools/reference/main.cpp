@@ -112,8 +112,7 @@ void run(Options options) {
     scene = additions.apply(std::move(scene));
     const std::vector<Pose> poses = pose_scene(scene, animation, o.shutter.open, o.shutter.close, o.time_steps);
 
-    std::vector<std::string> warnings = scene.warnings;
-    for (const std::string& warning : reference_warnings(scene)) warnings.push_back(warning);
+    const std::vector<std::string>& warnings = scene.warnings;
     if (!options.quiet) {
         for (const std::string& warning : warnings) std::cerr << "reference: warning: " << warning << '\n';
     }

@@ -17,7 +17,6 @@ namespace {
 using namespace reference;
 
 constexpr uint32_t kTileSize = TileTracer::kTileSize;
-constexpr size_t kMaxLights = 32;  // Bits of SampleRecord::lit.
 
 void check_range(const char* name, uint32_t value, uint32_t least, uint32_t most) {
     if (value >= least && value <= most) return;
@@ -35,9 +34,6 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const ReferenceSe
     if (settings.camera >= scene.cameras.size()) {
         throw Error(ErrorKind::usage, "there is no camera " + std::to_string(settings.camera), scene.path.string(),
                     "the scene has " + std::to_string(scene.cameras.size()));
-    }
-    if (scene.lights.size() > kMaxLights) {
-        throw Error(ErrorKind::input, "more than 32 lights", scene.path.string(), "remove some");
     }
 }
 
@@ -93,7 +89,7 @@ void resolve_pixel(Frame& frame, const TileTracer& tracer, uint32_t tile_pixel, 
 TraceTally trace_tiles(Frame& frame, const World& world, const ReferenceSettings& settings, uint32_t thread_count) {
     const uint32_t across = (settings.width + kTileSize - 1) / kTileSize;
     const uint32_t down = (settings.height + kTileSize - 1) / kTileSize;
-    std::vector<TileTracer> tracers(thread_count, TileTracer(world, settings, frame.samples));
+    std::vector<TileTracer> tracers(thread_count, TileTracer(world, settings, frame));
     std::atomic<uint32_t> next_tile = 0;
     const auto work = [&](TileTracer& tracer) {
         for (uint32_t tile = next_tile++; tile < across * down; tile = next_tile++) {
@@ -133,7 +129,7 @@ Frame trace_reference(const Scene& scene, const std::vector<Pose>& poses, const 
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
     frame.channels = empty_channels(settings.exact, scene.lights.size(), pixel_count);
-    if (settings.keep_samples) frame.samples.resize(pixel_count * settings.spp);
+    if (settings.keep_samples) frame.keep_samples(pixel_count * settings.spp);
 
     Clock clock;
     const SurfaceMotion surface(scene, poses);
@@ -169,17 +165,6 @@ Frame trace_reference(const Scene& scene, const std::vector<Pose>& poses, const 
     frame.stats.wall_seconds = pose_seconds + build_seconds + trace_seconds;
     frame.stats.device = "Embree " RTC_VERSION_STRING ", " + std::to_string(thread_count) + " threads";
     return frame;
-}
-
-std::vector<std::string> reference_warnings(const Scene& scene) {
-    std::vector<std::string> warnings;
-    for (size_t i = 0; i < scene.lights.size(); ++i) {
-        if (scene.lights[i].kind != LightKind::point) continue;
-        warnings.push_back(
-            "light " + std::to_string(i) + " (" + scene.lights[i].name +
-            ") is a point light, which the reference does not trace: it lights nothing, and its visibility is 1");
-    }
-    return warnings;
 }
 
 }  // namespace gnomon

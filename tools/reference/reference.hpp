@@ -35,11 +35,8 @@ struct ReferenceSettings {
 /// Channels: R G B (exact only) A Z, then visibility.<i> and visibility_var.<i> for each light. The latter is the standard
 /// error of the former: sqrt(p (1 - p) / max(n - 1, 1)) of n hits. Stages: pose, build (the BVH), primary, shadow, shade (film
 /// included); seconds are wall time, that of the last three split by the time that the threads spent in each.
-/// Errors: ErrorKind::usage for settings out of range or a camera that is not there; ErrorKind::input for more than 32 lights;
-/// ErrorKind::out_of_memory from Embree, std::bad_alloc from the rest.
+/// Errors: ErrorKind::usage for settings out of range or a camera that is not there; ErrorKind::out_of_memory from Embree,
+/// std::bad_alloc from the rest.
 Frame trace_reference(const Scene& scene, const std::vector<Pose>& poses, const ReferenceSettings& settings);
-
-/// What trace_reference leaves out of this scene, one line each: point lights, which reflect nothing and have visibility 1.
-std::vector<std::string> reference_warnings(const Scene& scene);
 
 }  // namespace gnomon

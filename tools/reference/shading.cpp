@@ -73,11 +73,11 @@ TracedLight::TracedLight(const Light& light, RigidMotion motion)
       cos_outer_(std::cos(double{light.outer_cone})) {}
 
 std::optional<glm::dvec3> TracedLight::shadow_ray(const Hit& hit) const {
-    if (light_.kind == LightKind::point) return std::nullopt;
     const RigidMotion::Placement placement = motion_.at(hit.when);
     if (light_.kind == LightKind::directional) return placement.rotation[2];
     const glm::dvec3 to_light = placement.translation - hit.point;
-    const bool in_cone = glm::dot(to_light, placement.rotation[2]) >= cos_outer_ * glm::length(to_light);
+    const bool in_cone =
+        light_.kind == LightKind::point || glm::dot(to_light, placement.rotation[2]) >= cos_outer_ * glm::length(to_light);
     return in_cone ? std::optional(to_light) : std::nullopt;
 }
 
@@ -87,10 +87,11 @@ TracedLight::Arriving TracedLight::arriving(const Hit& hit) const {
     if (light_.kind == LightKind::directional) return {power, placement.rotation[2]};
     const glm::dvec3 to_light = placement.translation - hit.point;
     const double distance = glm::length(to_light);
-    if (light_.kind == LightKind::point || distance == 0.0) return {glm::dvec3(0.0), placement.rotation[2]};
+    if (distance == 0.0) return {glm::dvec3(0.0), placement.rotation[2]};
     const glm::dvec3 direction = to_light / distance;
     const double scale = 1.0 / std::max(0.001, cos_inner_ - cos_outer_);
-    const double cone = std::clamp((glm::dot(direction, placement.rotation[2]) - cos_outer_) * scale, 0.0, 1.0);
+    const bool point = light_.kind == LightKind::point;
+    const double cone = point ? 1.0 : std::clamp((glm::dot(direction, placement.rotation[2]) - cos_outer_) * scale, 0.0, 1.0);
     const double window = light_.range > 0.0f ? std::clamp(1.0 - std::pow(distance / light_.range, 4.0), 0.0, 1.0) : 1.0;
     return {power * (cone * cone * window / (distance * distance)), direction};
 }
@@ -121,11 +122,11 @@ glm::dvec3 Shading::normal(const Hit& hit) const {
     return glm::dot(smooth, facing) < 0.0 ? -smooth / length : smooth / length;
 }
 
-glm::dvec3 Shading::reflected(const Hit& hit, const std::vector<TracedLight>& lights) const {
+glm::dvec3 Shading::reflected(const Hit& hit, const std::vector<TracedLight>& lights, std::span<const uint8_t> lit) const {
     const glm::dvec3 n = normal(hit);
     glm::dvec3 sum(0.0);
     for (size_t i = 0; i < lights.size(); ++i) {
-        if ((hit.lit >> i & 1u) == 0) continue;
+        if (lit[i] == 0) continue;
         const TracedLight::Arriving light = lights[i].arriving(hit);
         sum += light.irradiance * std::max(0.0, glm::dot(n, light.direction));
     }

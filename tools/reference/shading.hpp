@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 
 #include "motion.hpp"
 #include "reference.hpp"
@@ -13,7 +14,6 @@ namespace gnomon::reference {
 /// What a camera sample found.
 struct Hit {
     uint32_t triangle = SampleRecord::kMiss;
-    uint32_t lit = 0;          ///< As SampleRecord::lit.
     float t = 0.0f;            ///< In the shutter.
     KeyTime when;              ///< The same time.
     float u = 0.0f, v = 0.0f;  ///< Barycentrics of the second and third corner.
@@ -30,8 +30,8 @@ public:
 
     LightKind kind() const { return light_.kind; }
 
-    /// From the hit to the light: unit length for a directional light, all the way for a spot. None where no shadow is looked
-    /// for: outside a spot's outer cone, and for point lights.
+    /// From the hit to the light: unit length for a directional light, else all the way. None where no shadow is looked for:
+    /// outside a spot's outer cone.
     std::optional<glm::dvec3> shadow_ray(const Hit& hit) const;
 
     /// Light that arrives at the hit where nothing occludes it, per unit of area facing the light (KHR_lights_punctual), and
@@ -54,8 +54,8 @@ public:
     Shading(const Scene& scene, const std::vector<Pose>& poses);
 
     /// Sum over lights of albedo / pi * irradiance * cosine * visibility. The normal lies on the side of the triangle that the
-    /// viewer sees.
-    glm::dvec3 reflected(const Hit& hit, const std::vector<TracedLight>& lights) const;
+    /// viewer sees. lit: of each light, whether it reaches the hit.
+    glm::dvec3 reflected(const Hit& hit, const std::vector<TracedLight>& lights, std::span<const uint8_t> lit) const;
 
 private:
     glm::dvec3 albedo(const Hit& hit) const;

@@ -85,11 +85,12 @@ void reject_near_occluders(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-TileTracer::TileTracer(const World& world, const ReferenceSettings& settings, std::vector<SampleRecord>& samples)
+TileTracer::TileTracer(const World& world, const ReferenceSettings& settings, Frame& frame)
     : world_(world),
       settings_(settings),
-      samples_(samples),
+      frame_(frame),
       hits_(kTilePixels),
+      lit_(kTilePixels * world.lights.size()),
       sums_(kTilePixels),
       lit_counts_(kTilePixels * world.lights.size()) {}
 
@@ -163,7 +164,7 @@ void TileTracer::trace_packet(uint32_t packet, uint32_t s) {
 void TileTracer::trace_shadows(size_t light_ix) {
     const Stopwatch stopwatch(tally_.shadow_seconds);
     const TracedLight& light = world_.lights[light_ix];
-    const uint32_t light_bit = 1u << light_ix;
+    const size_t light_count = world_.lights.size();
     ShadowPacket packet;
     init(packet.query, true);
     packet.surface = &world_.surface;
@@ -177,7 +178,7 @@ void TileTracer::trace_shadows(size_t light_ix) {
         for (uint32_t lane = 0; lane < kLanes; ++lane) {
             Hit& hit = hits_[first + lane];
             if (hit.triangle == SampleRecord::kMiss) continue;
-            hit.lit |= light_bit;
+            lit_[(first + lane) * light_count + light_ix] = 1;
             const std::optional<glm::dvec3> direction = light.shadow_ray(hit);
             if (!direction) continue;
             packet.direction[lane] = *direction;
@@ -189,7 +190,7 @@ void TileTracer::trace_shadows(size_t light_ix) {
         tally_.shadow_tests += valid_count;
         occluded(valid, world_.embree.scene(), packet.query, rays);
         for (uint32_t lane = 0; lane < kLanes; ++lane) {
-            if (valid[lane] != 0 && rays.tfar[lane] < 0.0f) hits_[first + lane].lit &= ~light_bit;
+            if (valid[lane] != 0 && rays.tfar[lane] < 0.0f) lit_[(first + lane) * light_count + light_ix] = 0;
         }
     }
 }
@@ -201,17 +202,22 @@ void TileTracer::add_to_film(uint32_t s) {
         if (!in_image(ix)) continue;
         const Hit& hit = hits_[ix];
         const glm::uvec2 pixel = pixel_of(ix);
-        if (!samples_.empty()) {
-            const size_t image_pixel = static_cast<size_t>(y_px_ + pixel.y) * settings_.width + x_px_ + pixel.x;
-            samples_[image_pixel * settings_.spp + s] = {hit.triangle, static_cast<float>(hit.depth), hit.lit};
-        }
+        const bool kept = !frame_.samples.empty();
+        const size_t image_pixel = static_cast<size_t>(y_px_ + pixel.y) * settings_.width + x_px_ + pixel.x;
+        const size_t sample = image_pixel * settings_.spp + s;
+        if (kept) frame_.samples[sample] = {hit.triangle, static_cast<float>(hit.depth)};
         if (hit.triangle == SampleRecord::kMiss) continue;
+        const std::span<const uint8_t> lit(lit_.data() + ix * light_count, light_count);
         const uint32_t sum_ix = pixel.y * kTileSize + pixel.x;
         PixelSum& sum = sums_[sum_ix];
         ++sum.hits;
         sum.depth += hit.depth;
-        if (world_.shading) sum.reflected += world_.shading->reflected(hit, world_.lights);
-        for (size_t light = 0; light < light_count; ++light) lit_counts_[sum_ix * light_count + light] += hit.lit >> light & 1u;
+        if (world_.shading) sum.reflected += world_.shading->reflected(hit, world_.lights, lit);
+        for (uint32_t light = 0; light < light_count; ++light) {
+            if (lit[light] == 0) continue;
+            ++lit_counts_[sum_ix * light_count + light];
+            if (kept) frame_.set_lit(sample, light);
+        }
     }
 }
 

@@ -38,8 +38,8 @@ class TileTracer {
 public:
     static constexpr uint32_t kTileSize = 16;  ///< Pixels along a side.
 
-    /// samples: Frame::samples, or empty: then samples are not kept.
-    TileTracer(const World& world, const ReferenceSettings& settings, std::vector<SampleRecord>& samples);
+    /// Samples are kept where the frame has room for them.
+    TileTracer(const World& world, const ReferenceSettings& settings, Frame& frame);
 
     /// Trace all samples of the tile whose first pixel is (x_px, y_px). Sums are then indexed by (y % kTileSize) * kTileSize +
     /// x % kTileSize.
@@ -58,9 +58,10 @@ private:
 
     const World& world_;
     const ReferenceSettings& settings_;
-    std::vector<SampleRecord>& samples_;
+    Frame& frame_;
     uint32_t x_px_ = 0, y_px_ = 0;
-    std::vector<Hit> hits_;  ///< Of one stratum of time, by packet and lane.
+    std::vector<Hit> hits_;     ///< Of one stratum of time, by packet and lane.
+    std::vector<uint8_t> lit_;  ///< Of each hit, each light: does it reach it?
     std::vector<PixelSum> sums_;
     std::vector<uint32_t> lit_counts_;
     TraceTally tally_;

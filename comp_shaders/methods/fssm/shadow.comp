@@ -74,9 +74,9 @@ void main() {
     float depth = biased_metres(test.depth);
 
     // The tile whose layers are asked.
-    vec2 extent = vec2(float(params.light_width), float(params.light_height));
+    vec2 extent = vec2(float(params.light_size));
     vec2 place = clamp(test.at + 0.5 * extent, vec2(0.0), extent);
-    uvec2 tiles = (uvec2(params.light_width, params.light_height) + kTile - 1u) / kTile;
+    uvec2 tiles = uvec2((params.light_size + kTile - 1u) / kTile);
     vec2 tile = min(floor(place / float(kTile)), vec2(tiles - 1u));
     if (kNeighbours) {
         Slot s = unpack_slot(test.slot, params.stratum_count);

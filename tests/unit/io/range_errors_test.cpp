@@ -17,7 +17,7 @@ cli::RangeErrors errors_from_above(MovingTriangles& scene, uint32_t resolution) 
     light.kind = LightKind::directional;
     scene.add(light, {{glm::dvec3(0, 50, 0), glm::angleAxis(glm::radians(-90.0), glm::dvec3(1.0, 0.0, 0.0))}});
     return cli::range_errors(scene.scene, scene.poses,
-                             light_view(light, scene.poses, 0, bounds_of(scene.scene, scene.poses), resolution));
+                             light_faces(light, scene.poses, 0, bounds_of(scene.scene, scene.poses), resolution));
 }
 
 TEST(RangeErrorsTest, SpreadOfNumbers) {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/light_records.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "shared/light.h"
+
+namespace gnomon {
+
+std::vector<glm::vec4> light_records(const Scene& scene, const std::vector<Pose>& poses) {
+    std::vector<glm::vec4> records;
+    for (size_t i = 0; i < scene.lights.size(); ++i) {
+        const Light& light = scene.lights[i];
+        const bool point = light.kind == LightKind::point;
+        const uint32_t kind = light.kind == LightKind::directional ? shared::kLightDirectional : shared::kLightSpot;
+        records.emplace_back(light.color * light.intensity, std::bit_cast<float>(kind));
+        double inner = std::cos(static_cast<double>(light.inner_cone)), outer = std::cos(static_cast<double>(light.outer_cone));
+        double scale = 1.0 / std::max(1e-3, inner - outer);
+        const glm::vec2 cone = point ? glm::vec2(0.0f, 1.0f) : glm::vec2(scale, -outer * scale);
+        records.emplace_back(cone, light.range, 0.0f);
+        for (const Pose& pose : poses) {
+            const Rigid& frame = pose.lights[i];
+            records.emplace_back(glm::vec3(frame.translation), 0.0f);
+            const glm::dquat turn = point ? glm::dquat(1.0, 0.0, 0.0, 0.0) : frame.rotation;
+            records.emplace_back(turn.x, turn.y, turn.z, turn.w);
+        }
+    }
+    if (records.empty()) records.emplace_back(0.0f);
+    return records;
+}
+
+}  // namespace gnomon
