@@ -111,7 +111,7 @@ struct ScanParams {
 };
 
 // Pages with longer lists are split in four, in space (kSplitSpace) or in time, while that thins their lists.
-const uint kLongPage = 64u;
+const uint kLongPage = 256u;
 const uint kSplitSpace = 1u;
 const uint kSplitTime = 2u;
 const uint kMostLevel = 8u;      // Of texels: each has half the side of those of the level before.

@@ -26,7 +26,9 @@ struct RenderSettings {
     std::string layout = "auto";  ///< A registered layout, a folder that holds one, or auto: what the method is made for.
     std::string raster =
         "auto";                 ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
-    std::string pages = "all";  ///< Of an S-buffer are made: all its pages, or those that hits ask for.
+    /// Of an S-buffer are made: "all" its pages, or those that hits ask for ("asked"); "auto": asked where lists are long and the
+    /// picture does not depend on the texels.
+    std::string pages = "auto";
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
     /// Of closed meshes list one side only, where the picture does not depend on what is listed (method exact). For comparison.

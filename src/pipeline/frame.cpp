@@ -53,8 +53,8 @@ void check(const Scene& scene, const std::vector<Pose>& poses, const RenderSetti
     check_range("height", settings.height, 1, 16384);
     check_range("spp", settings.spp, 1, 65536);
     check_range("shadow resolution", settings.shadow_res, 1, 16384);
-    if (settings.pages != "asked" && settings.pages != "all")
-        throw Error(ErrorKind::usage, "no pages '" + settings.pages + "'", "settings", "use asked or all");
+    if (settings.pages != "auto" && settings.pages != "asked" && settings.pages != "all")
+        throw Error(ErrorKind::usage, "no pages '" + settings.pages + "'", "settings", "use auto, asked or all");
     check_range("number of poses", poses.size(), 2, kMostSegments + 1);
     if (scene.triangles.empty())
         throw Error(ErrorKind::input, "the scene has no triangles", scene.path.string(), "add a mesh with triangles");
@@ -197,9 +197,9 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
     const uint64_t light_bytes = scene.lights.empty() ? 0 : bins.raster_vertices.bytes();
     const auto left = [&] { return device.budget_left() - std::min(device.budget_left(), light_bytes); };
     const uint64_t room = left();
-    const bool asked = method.has_s_buffer() && settings.pages == "asked" && !settings.keep_texel_ranges;
+    const std::string pages = !method.has_s_buffer() ? "" : settings.keep_texel_ranges ? "all" : settings.pages;
     const uint64_t most_slots =
-        batch_slots(device, view, settings.spp, lit_planes(frame.light_count, method.fractional), asked, room / 4);
+        batch_slots(device, view, settings.spp, lit_planes(frame.light_count, method.fractional), pages == "asked", room / 4);
     Sampler sampler(device, programs, geometry, view, bins, lights,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
@@ -207,13 +207,12 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
                      .light_count = frame.light_count,
                      .most_slots = most_slots,
                      .fractional = method.fractional,
-                     .asks = asked,
                      .shells = method.one_sided,
                      .one_sided = closed_triangles > 0,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
     Lights shadows(
-        {device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, asked, closed_triangles > 0},
+        {device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, pages, closed_triangles > 0},
         scene, poses, bounds);
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;

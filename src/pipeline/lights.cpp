@@ -61,9 +61,16 @@ Listing Lights::listing() const {
     return shared_.one_sided ? Listing::away : Listing::swept;
 }
 
+// Where a list of an S-buffer is long, so are the ways through it of the few hits there: pages that may be split are then worth
+// the asking.
+bool Lights::asks(const Bins& bins) const {
+    constexpr uint32_t kLongList = 2048;
+    return shared_.pages == "asked" || (shared_.pages == "auto" && shared_.method.any_texels && bins.longest > kLongList);
+}
+
 void Lights::prepare() {
     make_together();
-    if (shared_.asked) return;  // The pages are known when there are hits.
+    counting_ = true;
     // Only a count tells whether the ranges of a window fit. To make one may cut it in two.
     std::optional<BandTooLarge> worst;
     for (size_t i = 0; i < faces_.size(); ++i) {
@@ -75,6 +82,7 @@ void Lights::prepare() {
             }
         }
     }
+    counting_ = false;
     if (worst) refuse(*worst);
 }
 
@@ -92,10 +100,15 @@ void Lights::make_together() {
         }
         for (Binning& binning : binnings) binning.count();
         for (Binning& binning : binnings) binning.fill();
-        for (Face& face : faces_) face.side.listed = true;
-        if (!shared_.asked) {
-            for (size_t i = 0; i < faces_.size(); ++i) map_lists(i);
-            for (size_t i = 0; i < faces_.size(); ++i) finish_map(i);
+        for (Face& face : faces_) {
+            face.side.listed = true;
+            face.side.asks = asks(face.side.bins);
+        }
+        for (size_t i = 0; i < faces_.size(); ++i) {
+            if (!faces_[i].side.asks) map_lists(i);
+        }
+        for (size_t i = 0; i < faces_.size(); ++i) {
+            if (!faces_[i].side.asks) finish_map(i);
         }
     } catch (const Error& error) {
         recorder.mark(marked);
@@ -185,11 +198,12 @@ void Lights::finish_map(size_t face) {
     shared_.sampler.reserve_walk(side.map->longest());  // Before the bands take what is left.
     side.bands = side.map->bands(share());
     std::map<std::string, uint64_t>& counts = made.counts[side.bins.window.tile_first];
-    if (!shared_.asked) counts.clear();
+    if (!side.asks) counts.clear();
     for (const auto& [name, count] : side.map->counts()) counts[name] += count;
     counts["bin_entries"] = side.bins.entry_count;
     if (side.asked) counts["pages"] += side.asked->count();
     made.effective = side.map->effective();
+    if (shared_.method.has_s_buffer()) made.effective["pages"] = side.asks ? "asked" : "all";
     made.effective["light_cells"] = std::to_string(side.bins.grid.cell_count);
 }
 
@@ -204,8 +218,12 @@ bool Lights::fits(size_t face, size_t window) {
             list_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, made.windows[window], listing(),
                         side.bins);
             side.listed = true;
+            side.asks = asks(side.bins);
         }
-        if (shared_.asked) ask(face);
+        // Which pages are asked for is known when there are hits.
+        contexts_[face].asked = nullptr;
+        if (side.asks && counting_) return;
+        if (side.asks) ask(face);
         if (side.asked && side.asked->count() == 0) return;
         map_lists(face);
         finish_map(face);
@@ -264,12 +282,10 @@ bool Lights::test_shadows(const Batch& batch, bool may_give_up) {
     for (size_t i = 0; i < faces_.size(); ++i) {
         Face& face = faces_[i];
         for (size_t w = 0; w < face.windows.size(); ++w) {
-            if (shared_.asked && may_give_up) {
-                if (!fits(i, w)) return false;
-            } else {
-                make(i, w);
-            }
             LightSide& side = face.side;
+            const bool made = may_give_up && fits(i, w);
+            if (may_give_up && !made && side.asks) return false;
+            if (!made) make(i, w);
             for (size_t b = 0; b < side.bands.size(); ++b) {
                 const Band& band = side.bands[b];
                 if (band.t_close <= open || band.t_open >= close) continue;
@@ -278,7 +294,7 @@ bool Lights::test_shadows(const Batch& batch, bool may_give_up) {
                 shared_.sampler.test_shadows(side, band, tolerance_);
             }
             // The next batch asks for others.
-            if (!shared_.asked) continue;
+            if (!side.asks) continue;
             side.map.reset();
             side.asked.reset();
             side.bands.clear();

@@ -25,7 +25,7 @@ public:
         Sampler& sampler;
         uint64_t room = 0;       ///< Bytes of the budget that were shared out.
         bool still = false;      ///< Nothing moves.
-        bool asked = false;      ///< Of S-buffers only the pages are made that a batch asks for.
+        std::string pages;       ///< As RenderSettings::pages; empty: there are none.
         bool one_sided = false;  ///< Of shells that count as closed list what looks away from the light.
     };
 
@@ -61,6 +61,7 @@ private:
 
     uint64_t most_tiles(const LightContext& context) const;
     Listing listing() const;
+    bool asks(const Bins& bins) const;
     void make_together();
     /// Have windows[window] of the face in memory. Where it does not fit, other faces go, then it is halved.
     void make(size_t face, size_t window);
@@ -85,6 +86,7 @@ private:
     std::vector<Face> faces_;
     std::vector<LightContext> contexts_;  ///< Of each face; its map refers to it.
     bool alone_ = false;                  ///< The other faces gave way to the one that is worked on.
+    bool counting_ = false;               ///< Nobody can ask yet.
     std::exception_ptr failure_;          ///< Why something did not fit.
 };
 

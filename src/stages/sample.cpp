@@ -57,8 +57,8 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     shadow_groups_ = device.allocate("shadow_groups", 12);
     hit_total_ = gpu::upload_new(device, "hit_total", std::vector<uint32_t>(2));
     ticket_ = device.allocate("ticket", 4);
-    asked_ = device.allocate("asked", settings.asks ? most_slots * sizeof(glm::vec4) : sizeof(glm::vec4));
-    asked_nodes_ = device.allocate("asked_nodes", settings.asks ? most_slots * sizeof(glm::uvec2) : sizeof(glm::uvec2));
+    asked_ = device.allocate("asked", sizeof(glm::vec4));
+    asked_nodes_ = device.allocate("asked_nodes", sizeof(glm::uvec2));
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
@@ -168,6 +168,13 @@ uint64_t Sampler::most_groups() const {
 }
 
 void Sampler::ask(const LightSide& light, float tolerance) {
+    const uint64_t slots = batch_.slot_count();
+    if (asked_.bytes() < slots * sizeof(glm::vec4)) {
+        asked_ = gpu::Buffer();
+        asked_nodes_ = gpu::Buffer();
+        asked_ = device_.allocate("asked", slots * sizeof(glm::vec4));
+        asked_nodes_ = device_.allocate("asked_nodes", slots * sizeof(glm::uvec2));
+    }
     std::vector<gpu::Binding> all = hit_bindings(light);
     for (const gpu::Binding& b : shell_bindings()) all.push_back(b);
     all.insert(all.end(), {{"Asked", &asked_},

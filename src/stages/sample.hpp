@@ -13,6 +13,7 @@ struct LightSide {
     View view;
     Bins bins;
     bool listed = false;           ///< The bins' lists are complete.
+    bool asks = false;             ///< Only pages that hits ask for are made of them.
     std::unique_ptr<Pages> asked;  ///< The pages that the map holds, where it does not hold all items.
     std::unique_ptr<ShadowMap> map;
     std::vector<Band> bands;
@@ -32,7 +33,6 @@ struct SamplerSettings {
     uint32_t light_count = 0;
     uint64_t most_slots = 0;    ///< Of a batch.
     bool fractional = false;    ///< Visibility is a share, not a bit.
-    bool asks = false;          ///< Hits ask for pages.
     bool shells = true;         ///< The test knows closed shells.
     bool one_sided = false;     ///< Of closed shells the lights' lists hold only what looks away from the light.
     bool keep_depths = false;   ///< Each sample's depth, for batch_depths().

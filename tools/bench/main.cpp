@@ -55,9 +55,10 @@ void add_options(CLI::App& app, Options& o) {
         ->type_name("F")
         ->check(CLI::Range(0.01, 4.0).description(""))
         ->capture_default_str();
-    app.add_option("--pages", o.pages, "Of S-buffers make all pages, or those that hits ask for")
-        ->type_name("asked|all")
-        ->check(CLI::IsMember({"asked", "all"}).description(""))
+    app.add_option("--pages", o.pages,
+                   "Of S-buffers make all pages, or those that hits ask for; auto: asked where lists are long")
+        ->type_name("auto|asked|all")
+        ->check(CLI::IsMember({"auto", "asked", "all"}).description(""))
         ->capture_default_str();
     app.add_option("--repeat", o.repeat, "Timed pairs of frames")
         ->type_name("N")

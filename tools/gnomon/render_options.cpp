@@ -91,9 +91,11 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
         ->check(CLI::IsMember({"auto", "analytic", "conservative", "prism"}).description(""))
         ->capture_default_str()
         ->group(picture);
-    command.add_option("--pages", o.settings.pages, "Of an S-buffer are made: all its pages, or those that hits ask for")
-        ->type_name("asked|all")
-        ->check(CLI::IsMember({"asked", "all"}).description(""))
+    command
+        .add_option("--pages", o.settings.pages,
+                    "Of an S-buffer are made: all its pages, or those that hits ask for; auto: asked where lists are long")
+        ->type_name("auto|asked|all")
+        ->check(CLI::IsMember({"auto", "asked", "all"}).description(""))
         ->capture_default_str()
         ->group(picture);
     add_parsed(command, "--shadow-res", "N", "1024", "Texels along a light view's side", [&o](Text text, Text name) {
