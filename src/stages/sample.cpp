@@ -57,8 +57,7 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     shadow_groups_ = device.allocate("shadow_groups", 12);
     hit_total_ = gpu::upload_new(device, "hit_total", std::vector<uint32_t>(2));
     ticket_ = device.allocate("ticket", 4);
-    asked_ = device.allocate("asked", sizeof(glm::vec4));
-    asked_nodes_ = device.allocate("asked_nodes", sizeof(glm::uvec2));
+    nothing_ = device.allocate("unbound", sizeof(glm::vec4));
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
     srgb_to_linear_ = gpu::upload_new(device, "srgb_to_linear", srgb_table());
@@ -169,7 +168,7 @@ uint64_t Sampler::most_groups() const {
 
 void Sampler::ask(const LightSide& light, float tolerance) {
     const uint64_t slots = batch_.slot_count();
-    if (asked_.bytes() < slots * sizeof(glm::vec4)) {
+    if (asked_nodes_.bytes() < slots * sizeof(glm::uvec2)) {
         asked_ = gpu::Buffer();
         asked_nodes_ = gpu::Buffer();
         asked_ = device_.allocate("asked", slots * sizeof(glm::vec4));
@@ -217,9 +216,9 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     all.insert(all.end(), {lit_plane(plane),
                            {"ShadowCounts", &shadow_counts_},
                            {"Iterators", &iterators_},
-                           {"asked", &asked_, Texel::rgba32_float},
-                           {"asked_nodes", &asked_nodes_, Texel::rg32_uint},
-                           {"leaves", light.asked ? &light.asked->leaves() : &asked_nodes_, Texel::r32_uint}});
+                           {"asked", light.asked ? &asked_ : &nothing_, Texel::rgba32_float},
+                           {"asked_nodes", light.asked ? &asked_nodes_ : &nothing_, Texel::rg32_uint},
+                           {"leaves", light.asked ? &light.asked->leaves() : &nothing_, Texel::r32_uint}});
     if (settings_.shells)
         for (const gpu::Binding& b : shell_bindings()) all.push_back(b);
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);

@@ -101,7 +101,7 @@ private:
     ShadowCounts counts_;
     std::optional<gpu::Download> film_hits_;  ///< When the film was finished.
     gpu::Buffer lit_, queue_, run_hits_, runs_, shadow_groups_, hit_total_, ticket_, film_, depth_values_, shadow_counts_,
-        iterators_, asked_, asked_nodes_, srgb_to_linear_;
+        iterators_, asked_, asked_nodes_, nothing_, srgb_to_linear_;
 };
 
 }  // namespace gnomon

@@ -19,6 +19,7 @@ struct Both {
 
 Both render_both(const PosedScene& posed, RenderSettings settings) {
     settings.count_ranges = true;
+    settings.pages = "all";  // The lists that are compared are then as long as they are.
     Both both;
     settings.closed_meshes = false;
     both.all = sampled_frame(posed, settings);

@@ -2,6 +2,8 @@
 // How dispatches are cut, with made-up times, and on the device.
 #include "gpu/pace.hpp"
 
+#include <algorithm>
+
 #include "gpu_test.hpp"
 #include "gpu_test_heavy.spv.h"
 
@@ -93,6 +95,9 @@ struct Outcome {
     double longest;
 };
 
+// Seconds within which a GPU does all of it.
+constexpr double kNotWorthCutting = 2e-3;
+
 // A dispatch from which its pace is learnt, and two that are measured.
 Outcome run(const char* limits) {
     const ScopedVariable lowered("GNOMON_LIMITS", limits);
@@ -121,7 +126,7 @@ TEST(CutDispatches, GiveTheSameInPieces) {
     EXPECT_EQ(cut.times[0].dispatches, 2u) << "however many pieces";
     EXPECT_EQ(whole.times.at(0).dispatches, 2u);
     EXPECT_GT(cut.longest, 0.0);
-    EXPECT_LT(cut.longest, cut.times[0].seconds / 10) << "of two dispatches";
+    EXPECT_LT(cut.longest, std::max(kNotWorthCutting, cut.times[0].seconds / 10)) << "of two dispatches";
 }
 
 TEST(CutDispatches, WorkWithoutTimestamps) {
@@ -131,7 +136,7 @@ TEST(CutDispatches, WorkWithoutTimestamps) {
     EXPECT_EQ(cut.times.at(0).dispatches, 2u);
     EXPECT_EQ(cut.times[0].seconds, 0.0);
     EXPECT_GT(cut.longest, 0.0);
-    EXPECT_LT(cut.longest, whole.times.at(0).seconds / 5);
+    EXPECT_LT(cut.longest, std::max(kNotWorthCutting, whole.times.at(0).seconds / 5));
 }
 
 TEST(CutDispatches, MayBeOfOneGroup) {

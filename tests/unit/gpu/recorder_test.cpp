@@ -280,6 +280,7 @@ TEST_F(RecorderTest, KeepsWhatItRecordedAlive) {
     const Buffer result = device.allocate("result", 32);
     {
         const Buffer gone = upload_new(device, "gone", std::vector<float>(8, 3.0f));
+        device.recorder().submit();  // Else it may hold what it uploads.
         const Program other = device.program({"scale", gpu_test_scale}, constants);
         const std::vector<Binding> bindings{{.name = "values", .buffer = &gone, .texel = Texel::r32_float},
                                             {.name = "Scaled", .buffer = &result}};
