@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pages of an S-buffer: 8 x 8 texels of a light's view in one cell of time, with the prisms that are listed there. All items of the window, or, with kAsked, those that
+// The pages of an S-buffer: 8 x 8 texels of a light's view in one cell of time, with the prisms that are listed there. All items of the window, or those that
 // receivers asked for (pages/list) and those that they were split into (pages/adopt): at level l their texels have a 2^l-th of the view's texels' side, at time
-// level m their cells last a 4^m-th of the view's. A page of a level is a tile of a view of that many texels and cells. Needs: kAsked, params.grid, bin_offsets
+// level m their cells last a 4^m-th of the view's. A page of a level is a tile of a view of that many texels and cells. Needs: params.grid
+#include "math/order.h"
 
 struct Page {
     ViewGrid grid;    // The view at the page's levels.
@@ -43,6 +44,12 @@ Page item_page(ViewGrid grid, uint item, uint begin, uint end) {
     page.receiver = kNone;
     page.limit = uintBitsToFloat(0x7f800000u);
     return page;
+}
+
+// For those who asked (common/ask.glsl).
+void set_receiver(inout Page page, uvec2 receiver) {
+    page.receiver = receiver.y == kNone ? kNone : receiver.y - 1u;
+    page.limit = from_ordered_bits(receiver.x);
 }
 
 // As two elements of the buffer.

@@ -129,8 +129,8 @@ GN_FN TileBounds tile_bounds(CellTriangle c, float cx, float cy, float reach, fl
     return bounds;
 }
 
-// Can the triangle a -> b, in this orientation, touch the tile that its vertices are relative to (tile_relative)? reach: half the
-// tile's side, texels.
+// Can the triangle a -> b, in this orientation, touch the tile that its vertices are relative to (tile_relative)? reach: half
+// the tile's side, texels.
 GN_FN bool touches_tile(vec3 a0, vec3 a1, vec3 a2, vec3 b0, vec3 b1, vec3 b2, float reach, float extent, float slack) {
     BoundScale scale = bound_scale(a0, a1, a2, b0, b1, b2, reach, reach, extent);
     EdgeBound e0 = edge_bound(a1, a2, b1, b2, scale, reach);

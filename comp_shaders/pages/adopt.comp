@@ -6,7 +6,6 @@
 // Grid:    one invocation per node, four for each unit; only those of a page's first unit are of its parts
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
-#include "math/order.h"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kWrite = false;
@@ -37,11 +36,9 @@ void main() {
     uint rank = fetch_page_of(node);
     leaves[params.node_first + node] = listed ? (params.page_first + params.page_count + rank) << 4u | part.level : kNone;
     if (!listed) return;
-    uvec2 receiver = fetch_receivers(node);
     part.begin = params.entry_next + begin;
     part.end = params.entry_next + end;
-    part.receiver = receiver.y == kNone ? kNone : receiver.y - 1u;
-    part.limit = from_ordered_bits(receiver.x);
+    set_receiver(part, fetch_receivers(node));
     new_pages[2u * rank] = page_place(part);
     new_pages[2u * rank + 1u] = page_list(part);
 }

@@ -6,7 +6,6 @@
 // Grid:    one invocation per item
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
-#include "math/order.h"
 
 layout(local_size_x = 64) in;
 READ_UVEC2(0, receivers)
@@ -24,10 +23,8 @@ void main() {
     bool listed = fetch_page_of(item + 1u) != number;
     leaves[item] = listed ? number << 4u : kNone;
     if (!listed) return;
-    uvec2 receiver = fetch_receivers(item);
     Page page = item_page(params.grid, item, fetch_bin_offsets(item), fetch_bin_offsets(item + 1u));
-    page.receiver = receiver.y == kNone ? kNone : receiver.y - 1u;
-    page.limit = from_ordered_bits(receiver.x);
+    set_receiver(page, fetch_receivers(item));
     pages[2u * number] = page_place(page);
     pages[2u * number + 1u] = page_list(page);
 }

@@ -6,7 +6,6 @@
 // Grid:    8 invocations per unit
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
-#include "math/order.h"
 #include "math/texel_range.h"
 
 layout(local_size_x = 64) in;
@@ -36,7 +35,7 @@ void main() {
     uint count[4];
     [[unroll]] for (uint q = 0u; q < 4u; ++q) {
         uvec2 by = fetch_receivers(4u * unit.first + q);
-        limit[q] = by.x == 0u ? -3.4e38 : from_ordered_bits(by.x);
+        limit[q] = by.x == 0u ? -kFarthest : from_ordered_bits(by.x);
         receiver[q] = by.y - 1u;
         count[q] = 0u;
     }

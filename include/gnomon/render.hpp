@@ -25,9 +25,9 @@ struct RenderSettings {
     std::string method = "exact";
     std::string layout = "auto";  ///< A registered layout, a folder that holds one, or auto: what the method is made for.
     std::string raster =
-        "auto";                 ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
-    /// Of an S-buffer are made: "all" its pages, or those that hits ask for ("asked"); "auto": asked where lists are long and the
-    /// picture does not depend on the texels.
+        "auto";  ///< How ranges are found: analytic, conservative, prism, or auto: what the method is made for.
+    /// Of an S-buffer are made: "all" its pages, or those that hits ask for ("asked"); "auto": asked where lists are long and
+    /// the picture does not depend on the texels.
     std::string pages = "auto";
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
