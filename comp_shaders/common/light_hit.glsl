@@ -17,7 +17,6 @@ READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
 READ_VEC4(4, light_vertices)
 READ_VEC4(8, positions)
-layout(binding = 9, scalar) buffer Ticket { uint ticket; };
 READ_UINT(11, runs)
 #ifdef GN_SHELLS
 READ_UINT(12, shells)
@@ -27,7 +26,7 @@ READ_VEC4(41, lights)
 const bool kOrthographic = kLightView == kOrthographicView;
 const bool kFaces = kLightView == kFaceView;
 layout(push_constant, scalar) uniform Push { ShadowParams params; };
-#include "common/ticket.glsl"
+#include "common/spread.glsl"
 #include "common/triangle.glsl"
 #include "common/batch.glsl"
 #include "common/receiver.glsl"
@@ -85,7 +84,7 @@ bool on_face(Receiver h) {
 uint hit_count() { return fetch_runs(params.run_count); }
 
 // The hit of the queue that this invocation tests; there is none from hit_count on.
-uint take_hit() { return take_ticket() * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
+uint take_hit() { return spread_group((hit_count() + 63u) / 64u) * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
 
 // A hit as the light's view holds it.
 struct ShadowTest {

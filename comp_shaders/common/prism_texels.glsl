@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rasterizing prisms by their triangulated surface (math/prism.h): every texel centre that a prism of an item's list covers is visited, once. The list holds prisms
 // by their bounds, each once. 8 invocations per item, each with prisms of its own; of the last ones
-// of a list, invocations share the rows of one. Needs: a ticket (common/ticket.glsl), void visit(uint list, uint triangle, PrismFragments fragments)
+// of a list, invocations share the rows of one. Needs: void visit(uint list, uint triangle, PrismFragments fragments)
 #include "math/prism.h"
 
 layout(local_size_x = 64) in;
@@ -17,7 +17,7 @@ layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
 #include "common/source_page.glsl"
-#include "common/ticket.glsl"
+#include "common/spread.glsl"
 
 void visit(uint list, uint triangle, PrismFragments fragments);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every stage includes first: extensions and the number of its workgroup.
+// What every stage includes first: extensions, reads, the device's threads and the number of its workgroup.
 #extension GL_EXT_scalar_block_layout : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shared/params.h"
@@ -23,6 +23,8 @@
 #define READ_UINT(slot, name) GN_READ(slot, usamplerBuffer, uint, name, x)
 #define READ_UVEC2(slot, name) GN_READ(slot, usamplerBuffer, uvec2, name, xy)
 #define READ_UVEC4(slot, name) GN_READ(slot, usamplerBuffer, uvec4, name, xyzw)
+
+layout(constant_id = kThreadsConstant) const uint kThreads = 1u;  // Of the device, each of which takes one contiguous part of a dispatch.
 
 uint group_index() { return gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x; }
 

@@ -18,12 +18,12 @@ READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
-layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
+layout(binding = 4, scalar) buffer RasterCounts { uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
 #include "common/source_page.glsl"
-#include "common/ticket.glsl"
+#include "common/spread.glsl"
 #include "common/range_count.glsl"
 uint range_base() { return params.range_first; }
 #define GN_RANGE_EXIT
@@ -31,7 +31,7 @@ uint range_base() { return params.range_first; }
 #include "layout.glsl"
 
 void main() {
-    uint number = take_ticket();
+    uint number = spread_group(params.item_count);
     uint item = params.item_first + min(number, params.item_count - 1u);
     uint texel = gl_LocalInvocationID.x;
     ViewGrid grid = params.grid;

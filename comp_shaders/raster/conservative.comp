@@ -19,12 +19,12 @@ READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
-layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
+layout(binding = 4, scalar) buffer RasterCounts { uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
 #include "common/source_page.glsl"
-#include "common/ticket.glsl"
+#include "common/spread.glsl"
 #include "common/range_count.glsl"
 #include "common/crew.glsl"
 uint range_base() { return params.range_first; }
@@ -39,7 +39,7 @@ const float kReach = 0.5 * float(kTileSize);
 
 void main() {
     Crew crew = join_crew();
-    uint item = params.item_first + take_ticket() * 8u + (crewed_invocation() >> 3u);
+    uint item = params.item_first + spread_group((params.item_count + 7u) / 8u) * 8u + (crewed_invocation() >> 3u);
     uint lane = crewed_invocation() & 7u;
     bool inside = item < params.item_first + params.item_count;
     item = min(item, params.item_first + params.item_count - 1u);

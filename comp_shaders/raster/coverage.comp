@@ -9,7 +9,6 @@
 // Based on: Hong and Oh 2017, Extension; its second pass writes depth untested, so that its third, which tests it, meets the depth where the covering triangle goes
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
-layout(binding = 5, scalar) buffer Ticket { uint ticket; };
 #include "common/prism_texels.glsl"
 #include "math/order.h"
 
@@ -46,4 +45,4 @@ void visit(uint list, uint triangle, PrismFragments f) {
     }
 }
 
-void main() { visit_texels(take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u)); }
+void main() { visit_texels(spread_group((params.item_count + 7u) / 8u) * 8u + (gl_LocalInvocationID.x >> 3u)); }

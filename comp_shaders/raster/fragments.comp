@@ -7,7 +7,7 @@
 // Based on: Hong and Oh 2018, "Motion-blurred shadows utilizing a depth-time ranges shadow map", sections 4.1 and 4.2
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
-layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
+layout(binding = 4, scalar) buffer RasterCounts { uvec2 range_counts[]; };
 #include "common/prism_texels.glsl"
 
 layout(constant_id = 4) const bool kCoverage = false;
@@ -37,7 +37,7 @@ void visit(uint list, uint triangle, PrismFragments f) {
 }
 
 void main() {
-    uint number = take_ticket() * 8u + (gl_LocalInvocationID.x >> 3u);
+    uint number = spread_group((params.item_count + 7u) / 8u) * 8u + (gl_LocalInvocationID.x >> 3u);
     visit_texels(number);
     if (kPass == 0u) add_range_count(min(params.item_first + number, params.item_first + params.item_count - 1u) / kCountBlock, total);
 }

@@ -20,9 +20,9 @@ READ_UINT(0, fragment_heads)
 READ_UVEC4(1, fragments)
 layout(binding = 2, scalar) buffer PairCounts { uvec2 pair_counts[]; };
 layout(binding = 3, scalar) buffer Resume { uint resume[]; };
-layout(binding = 4, scalar) buffer RasterCounts { uint ticket; uvec2 range_counts[]; };
+layout(binding = 4, scalar) buffer RasterCounts { uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
-#include "common/ticket.glsl"
+#include "common/spread.glsl"
 #include "common/range_count.glsl"
 uint range_base() { return params.range_first; }
 #define GN_RANGE_EXIT
@@ -30,7 +30,7 @@ uint range_base() { return params.range_first; }
 #include "layout.glsl"
 
 void main() {
-    uint number = take_ticket();
+    uint number = spread_group(params.item_count);
     bool inside = number < params.item_count;
     number = min(number, params.item_count - 1u);
     uint item = params.item_first + number;

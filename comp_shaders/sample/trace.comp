@@ -19,10 +19,9 @@ READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
 layout(binding = 4, scalar) buffer Hits { uint hits[]; };
-layout(binding = 5, scalar) buffer Ticket { uint ticket; };
 layout(push_constant, scalar) uniform Push { TraceParams params; };
 #include "common/triangle.glsl"
-#include "common/ticket.glsl"
+#include "common/spread.glsl"
 #include "common/batch.glsl"
 #include "common/crew.glsl"
 
@@ -53,7 +52,7 @@ void main() {
     ViewGrid grid = params.grid;
     uint item_count = params.tile_count * params.stratum_count;
     Crew crew = join_crew();
-    uint item = take_ticket() * 8u + (crewed_invocation() >> 3u);
+    uint item = spread_group((item_count + 7u) / 8u) * 8u + (crewed_invocation() >> 3u);
     uint lane = crewed_invocation() & 7u;
     bool inside = item < item_count;
     item = min(item, item_count - 1u);

@@ -37,6 +37,8 @@ const uint kListChunk = 6144u;
 const uint kPairChunk = 32768u;
 // Most workgroups of the shadow test in a row; its dispatch can be cut between rows.
 const uint kShadowRow = 128u;
+// The specialization constant of all stages: see common/stage.glsl.
+const uint kThreadsConstant = 100u;
 // Triangles that one invocation bounds.
 const uint kBoundsRun = 16u;
 // Elements that one invocation scans.
@@ -92,6 +94,8 @@ struct PrismParams {
     uint part_first;     // the first of this cell's being this one.
     uvec2 window_first;  // The window's first and last column and row of tiles.
     uvec2 window_last;
+    vec3 box_lower;  // Of the scene, at all keys.
+    vec3 box_upper;
 };
 
 struct BinParams {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <limits>
+#include <thread>
 
 #include "gpu/limits.hpp"
 #include "gpu/recorder_impl.hpp"
@@ -118,6 +119,7 @@ Device::Impl::Impl(const std::string& choice, bool validate)
               .push_constant_bytes = vulkan_limits.maxPushConstantsSize,
               .timestamps = candidate.timestamp_bits > 0,
               .is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
+    if (limits.is_cpu) limits.threads = std::max(1u, std::thread::hardware_concurrency());
 
     // Cached, because the host reads results: uncached device memory behind a bus is read far slower than it is copied. And in
     // the largest heap, because some devices show the host a small window only.

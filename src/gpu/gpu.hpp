@@ -41,6 +41,7 @@ struct Limits {
     bool timestamps = false;    ///< Else stages have no seconds.
     bool mapped = false;        ///< The host sees buffers; else uploads and downloads are staged.
     bool is_cpu = false;
+    uint32_t threads = 1;  ///< Each of which takes one contiguous part of a dispatch; 1 where workgroups start in order.
 
     /// Stages read through storage buffers: some devices have texel buffers of as few as 65,536 elements.
     bool storage_reads() const { return !texel_reads || max_texels < kManyTexels; }

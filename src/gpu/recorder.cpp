@@ -112,6 +112,8 @@ void Recorder::dispatch_indirect_bytes(std::string_view stage, const Program& pr
         impl_->add({std::string(stage), job.pace_key, most_groups, seconds, 1, values}, job.accesses,
                    [&](VkCommandBuffer commands) {
                        bind(commands);
+                       // lavapipe lets an indirect dispatch begin where the dispatch before it did: here, from zero.
+                       vkCmdDispatch(commands, 0, 0, 0);
                        vkCmdDispatchIndirect(commands, source.memory.buffer.get(), offset);
                    });
         return;

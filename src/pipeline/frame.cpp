@@ -179,6 +179,7 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
     Geometry geometry = pose_geometry(device, programs, std::move(loaded), poses);
     const GeometryBounds boxes = geometry_bounds(device, programs, geometry, scene, poses);
     const Bounds& bounds = boxes.all;
+    geometry.box = bounds;
     gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(scene, poses));
 
     // The camera's vertices and the sampler; then window by window its prisms and samples.
@@ -211,9 +212,8 @@ void Renderer::Impl::render(const Scene& scene, std::shared_ptr<const SceneData>
                      .one_sided = closed_triangles > 0,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
-    Lights shadows(
-        {device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, pages, closed_triangles > 0},
-        scene, poses, bounds);
+    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, pages, one_sided},
+                   scene, poses, bounds);
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;
     uint64_t camera_entries = 0;

@@ -58,7 +58,7 @@ uint64_t Lights::most_tiles(const LightContext& context) const {
 
 Listing Lights::listing() const {
     if (shared_.raster == "prism") return Listing::bounds;
-    return shared_.one_sided ? Listing::away : Listing::swept;
+    return shared_.casting ? Listing::casting : Listing::swept;
 }
 
 // Where a list of an S-buffer is long, so are the ways through it of the few hits there: pages that may be split are then worth

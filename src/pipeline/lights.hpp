@@ -23,10 +23,10 @@ public:
         std::string raster;
         const View& camera;
         Sampler& sampler;
-        uint64_t room = 0;       ///< Bytes of the budget that were shared out.
-        bool still = false;      ///< Nothing moves.
-        std::string pages;       ///< As RenderSettings::pages; empty: there are none.
-        bool one_sided = false;  ///< Of shells that count as closed list what looks away from the light.
+        uint64_t room = 0;     ///< Bytes of the budget that were shared out.
+        bool still = false;    ///< Nothing moves.
+        std::string pages;     ///< As RenderSettings::pages; empty: there are none.
+        bool casting = false;  ///< List only what may shadow something.
     };
 
     /// Nothing is made yet.

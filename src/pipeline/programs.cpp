@@ -4,6 +4,7 @@
 #include <gnomon/error.hpp>
 
 #include "shader_table.h"
+#include "shared/params.h"
 
 namespace gnomon {
 
@@ -27,6 +28,7 @@ const gpu::Program& Programs::get(const std::string& name, const std::vector<uin
     if (found == programs_.end()) {
         std::vector<gpu::Constant> values;
         for (uint32_t value : constants) values.push_back({static_cast<uint32_t>(values.size()), value});
+        values.push_back({shared::kThreadsConstant, device_.limits().threads});
         auto added = added_.find(name);
         const char* variant = device_.limits().storage_reads() ? "+storage" : "";
         gpu::Shader shader = added == added_.end() ? find_shader(name + variant) : gpu::Shader{name, added->second};

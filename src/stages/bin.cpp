@@ -58,7 +58,7 @@ public:
           geometry_(geometry),
           rect_(rect_of(view, bins.window)),
           by_bounds_(listing == Listing::bounds),
-          one_side_(listing == Listing::away),
+          casting_(listing == Listing::casting),
           bins_(bins) {
         const gpu::Limits& limits = device.limits();
         const uint64_t cells = bins.grid.cell_count;
@@ -96,15 +96,16 @@ private:
         const uint32_t cells = bins_.grid.cell_count;
         recorder.fill("setup/prisms", block_counts_, 0);
         for (uint32_t cell = 0; cell < cells; ++cell) {
-            recorder.dispatch("setup/prisms", programs_.get("setup/prisms", {one_side_}),
+            recorder.dispatch("setup/prisms", programs_.get("setup/prisms", {casting_}),
                               bindings({{"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                         {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                         {"shells", &geometry_.scene->shells, Texel::r32_uint},
                                         {"closed", &geometry_.closed, Texel::r32_uint},
+                                        {"positions", &geometry_.positions, Texel::rgba32_float},
                                         {"Rects", &rects_, {}, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
                                         {"BlockCounts", &block_counts_}}),
                               shared::PrismParams{bins_.grid, cell, chunk.first, chunk.count, part_log2_, cell * parts_,
-                                                  rect_.first_tile, rect_.last_tile},
+                                                  rect_.first_tile, rect_.last_tile, geometry_.box.lower, geometry_.box.upper},
                               groups_of(chunk.count, 64));
         }
         blocks_of_chunk_ = recorder.download(block_counts_, 0, uint64_t(cells) * parts_ * 4);
@@ -179,7 +180,7 @@ private:
     const Geometry& geometry_;
     WindowRect rect_;
     bool by_bounds_;
-    bool one_side_;
+    bool casting_;
     Bins& bins_;
     uint32_t chunk_ = 0;      // Triangles whose rectangles are in memory at one time.
     uint32_t parts_ = 0;      // Of a chunk, in which blocks are counted.

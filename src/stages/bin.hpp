@@ -23,9 +23,10 @@ struct Bins {
 
 /// In which tiles a prism is listed.
 enum class Listing {
-    swept,   ///< Those that it can touch, in each orientation that it can have there.
-    bounds,  ///< All that its bounds touch, once, not reversed.
-    away,    ///< As swept; of shells that count as closed only while it looks away from the view's eye.
+    swept,    ///< Those that it can touch, in each orientation that it can have there.
+    bounds,   ///< All that its bounds touch, once, not reversed.
+    casting,  ///< As swept, if it may shadow something: of shells that count as closed only while it looks away from the view's
+              ///< eye, of all else what does not stand still on the scene's hull, seen from within.
 };
 
 /// Bins without lists: the view's vertices are projected. cell_count: a multiple of the segments.

@@ -21,7 +21,6 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterS
     map.nearest_depths = device.allocate("nearest_depths", bytes);
     map.nearest_triangles = device.allocate("nearest_triangles", bytes);
     map.coverage = device.allocate("coverage", bytes);
-    const gpu::Buffer ticket = device.allocate("ticket", 4);
     gpu::Recorder& recorder = device.recorder();
     for (const gpu::Buffer* buffer : {&map.nearest_depths, &map.nearest_triangles, &map.coverage})
         recorder.fill("raster/coverage", *buffer, shared::kNone);
@@ -29,13 +28,11 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterS
     for (uint32_t first = 0; first < items; first += std::min(most, items - first)) {
         const uint32_t count = std::min(most, items - first);
         std::vector<gpu::Binding> all = source.bindings();
-        all.push_back({"Ticket", &ticket});
         all.push_back({"NearestDepths", &map.nearest_depths, {}, first * item_bytes, count * item_bytes});
         all.push_back({"NearestTriangles", &map.nearest_triangles, {}, first * item_bytes, count * item_bytes});
         all.push_back({"Coverage", &map.coverage, {}, first * item_bytes, count * item_bytes});
         for (uint32_t pass = 0; pass < 4; ++pass) {
             for (uint32_t part = 0; part < source.part_count(); ++part) {
-                recorder.fill("raster/coverage", ticket, 0);
                 recorder.dispatch(
                     "raster/coverage",
                     programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}), all,

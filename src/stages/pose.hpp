@@ -39,6 +39,7 @@ struct Geometry {
     uint32_t segment_count = 0;
     gpu::Buffer positions;  ///< vec4 per key and vertex, world space.
     gpu::Buffer normals;    ///< vec4 per key and vertex.
+    Bounds box;             ///< Of all triangles at all keys, where it is asked for.
     gpu::Buffer closed;     ///< uint per shell, and one for triangles of none: 1 where it counts as closed in this frame.
 };
 

@@ -15,8 +15,6 @@ using gpu::Texel;
 // Ranges in memory start at a multiple of this, which keeps every binding aligned whatever the size of its elements.
 constexpr uint64_t kRangeAlign = 64;
 
-constexpr uint64_t kTicketBytes = 4;
-
 uint64_t align_down(uint64_t value) { return value / kRangeAlign * kRangeAlign; }
 
 }  // namespace
@@ -37,7 +35,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     portions_ = raster_->portions();
     if (portions_.empty()) portions_.push_back({0, item_count_});
     uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
-    raster_counts_ = device.allocate("raster_counts", kTicketBytes + blocks * sizeof(glm::uvec2));
+    raster_counts_ = device.allocate("raster_counts", blocks * sizeof(glm::uvec2));
     const bool scanned = std::any_of(layout_.buffers.begin(), layout_.buffers.end(), [](const auto& b) { return b.scan; });
     const uint64_t list_elements = scanned ? scan_bytes(list_count_) / 4 : list_count_;
     for (const LayoutBuffer& description : layout_.buffers) {
@@ -110,7 +108,6 @@ void SBuffer::record_pass(bool fill, const Band& part) {
     }
     uint64_t groups = groups_of(part.item_count, raster_->items_per_group());
     for (uint32_t i = 0; i < raster_->part_count(); ++i) {
-        recorder.fill(raster_->timing(fill), raster_counts_, 0, 0, kTicketBytes);
         recorder.dispatch(
             raster_->timing(fill), raster_->program(fill), all,
             shared::RasterParams{raster_->grid(), part.item_count, part.item_first, i * shared::kListChunk,
@@ -170,7 +167,7 @@ void SBuffer::count() {
         m.counts = gpu::Buffer();
     }
     const uint64_t blocks = groups_of(item_count_, shared::kCountBlock);
-    totals_ = recorder.download(raster_counts_, kTicketBytes, blocks * sizeof(glm::uvec2));
+    totals_ = recorder.download(raster_counts_, 0, blocks * sizeof(glm::uvec2));
 }
 
 const SBuffer::Counted& SBuffer::counted() const {

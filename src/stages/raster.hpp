@@ -68,7 +68,7 @@ private:
     uint32_t range_base_ = 0;
     gpu::Download totals_;
     mutable std::optional<Counted> counted_;
-    gpu::Buffer raster_counts_;  ///< A ticket, and the ranges of each block of items.
+    gpu::Buffer raster_counts_;  ///< The ranges of each block of items.
     Unbound unbound_;            ///< Stands in for the ranges while they are counted.
     std::vector<Memory> memory_;
 };

@@ -56,7 +56,6 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
     runs_ = device.allocate("runs", scan_bytes(most_slots / shared::kScanRun));
     shadow_groups_ = device.allocate("shadow_groups", 12);
     hit_total_ = gpu::upload_new(device, "hit_total", std::vector<uint32_t>(2));
-    ticket_ = device.allocate("ticket", 4);
     nothing_ = device.allocate("unbound", sizeof(glm::vec4));
     depth_values_ = device.allocate("depths", settings.keep_depths ? most_slots * 4 : 4);
     shadow_counts_ = device.allocate("shadow_counts", (most_slots / kCountersHits + 1) * 12);
@@ -113,8 +112,7 @@ std::vector<gpu::Binding> Sampler::hit_bindings(const LightSide& light) const {
             {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
             {"light_vertices", &light.bins.raster_vertices, Texel::rgba32_float},
             {"positions", &geometry_.positions, Texel::rgba32_float},
-            {"lights", &lights_, Texel::rgba32_float},
-            {"Ticket", &ticket_}};
+            {"lights", &lights_, Texel::rgba32_float}};
 }
 
 shared::ShadowParams Sampler::shadow_params(const LightSide& light, const ItemOrder& order, const Band& band,
@@ -182,7 +180,6 @@ void Sampler::ask(const LightSide& light, float tolerance) {
                            lit_plane(plane_of(light.light_ix))});
     gpu::Recorder& recorder = device_.recorder();
     begin_lit("sample/shadow", plane_of(light.light_ix));
-    recorder.fill("sample/ask", ticket_, 0);
     recorder.dispatch_indirect(
         "sample/ask",
         programs_.get("sample/ask", {light.view.projection(), view_.orthographic, tracer_.straddle(), settings_.one_sided}),
@@ -201,7 +198,6 @@ void Sampler::descend(const LightSide& light, const Pages::Parts& parts, float t
     shared::ShadowParams params = shadow_params(light, {light.bins.grid.cell_count}, {parts.page_first, 0}, tolerance);
     params.range_first = parts.node_first;
     gpu::Recorder& recorder = device_.recorder();
-    recorder.fill("sample/ask", ticket_, 0);
     recorder.dispatch_indirect(
         "sample/ask",
         programs_.get("sample/descend", {light.view.projection(), view_.orthographic, tracer_.straddle(), settings_.one_sided}),
@@ -244,7 +240,6 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     shared::ShadowParams params = shadow_params(light, light.map->order(), band, tolerance);
     params.range_first = light.map->range_base();
     for (params.part = 0; params.part < parts; ++params.part) {
-        recorder.fill("sample/shadow", ticket_, 0);
         recorder.dispatch_indirect("sample/shadow", programs_.get(settings_.shadow_stage, constants), all, params,
                                    shadow_groups_, 0, most_groups());
     }

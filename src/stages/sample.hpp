@@ -100,8 +100,8 @@ private:
     uint32_t run_count_ = 0;
     ShadowCounts counts_;
     std::optional<gpu::Download> film_hits_;  ///< When the film was finished.
-    gpu::Buffer lit_, queue_, run_hits_, runs_, shadow_groups_, hit_total_, ticket_, film_, depth_values_, shadow_counts_,
-        iterators_, asked_, asked_nodes_, nothing_, srgb_to_linear_;
+    gpu::Buffer lit_, queue_, run_hits_, runs_, shadow_groups_, hit_total_, film_, depth_values_, shadow_counts_, iterators_,
+        asked_, asked_nodes_, nothing_, srgb_to_linear_;
 };
 
 }  // namespace gnomon

@@ -43,8 +43,7 @@ Tracer::Tracer(gpu::Device& device, Programs& programs, const Geometry& geometry
       sampling_(sampling),
       straddle_(sampling.spp % bins.grid.cell_count != 0),
       cell_turns_(straddle_ ? most_cells_of_a_stratum(sampling.spp, bins.grid.cell_count) : 1),
-      hits_(device.allocate("hits", most_slots * 4)),
-      ticket_(device.allocate("ticket", 4)) {}
+      hits_(device.allocate("hits", most_slots * 4)) {}
 
 void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
     for (uint32_t turn = 0; turn < cell_turns_; ++turn) {
@@ -54,7 +53,6 @@ void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
 }
 
 void Tracer::record(gpu::Recorder& recorder, const Batch& batch, uint32_t cell_turn, uint32_t list_first) {
-    recorder.fill(stage_, ticket_, 0);
     recorder.dispatch(
         stage_,
         programs_.get("sample/trace", {view_.orthographic, straddle_, list_first > 0, sampling_.sliced, programs_.crew()}),
@@ -62,8 +60,7 @@ void Tracer::record(gpu::Recorder& recorder, const Batch& batch, uint32_t cell_t
                   {"bin_entries", &bins_.entries, Texel::r32_uint},
                   {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                   {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                  {"Hits", &hits_},
-                  {"Ticket", &ticket_}}),
+                  {"Hits", &hits_}}),
         shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
                             sampling_.spp, shared::stratum_length(sampling_.spp), sampling_.seed, list_first, cell_turn,
                             view_.depth_near, view_.depth_far},

@@ -55,7 +55,7 @@ private:
     Sampling sampling_;
     bool straddle_;
     uint32_t cell_turns_;  ///< Dispatches in which the cells of each stratum are walked, one after the other.
-    gpu::Buffer hits_, ticket_;
+    gpu::Buffer hits_;
 };
 
 }  // namespace gnomon

@@ -253,6 +253,41 @@ TEST(OneSide, OfExactAlone) {
     }
 }
 
+uint64_t ranges_of_light(const Frame& frame, uint32_t light) {
+    return frame.stats.counts.at("ranges." + std::to_string(light));
+}
+
+// A floor on which all stands, and a wall beside all, shadow nothing while the light is on the scene's side of them.
+TEST(OneSide, NotWhatLiesOnTheHull) {
+    const auto sheets = [](const glm::vec3& floor_moves) {
+        MovingTriangles scene(1);
+        add_quad(scene, glm::vec3(0.0f), {6.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -6.0f}, floor_moves);
+        add_quad(scene, {-6.0f, 3.0f, 0.0f}, {0.0f, 3.0f, 0.0f}, {0.0f, 0.0f, 6.0f});
+        add_quad(scene, {-1.0f, 1.0f, 1.5f}, {0.8f, 0.5f, 0.0f}, {0.0f, 0.5f, -0.8f}, {0.1f, 0.2f, 0.0f});
+        scene.add(perspective(0.7), {at({2.0, 3.5, 5.0}, {0.0, 0.6, 0.0})});
+        scene.add(sun(3.0f), {{glm::dvec3(0.0), looking({-0.5, -1.0, -0.3})}});  // Before both.
+        scene.add(sun(3.0f), {{glm::dvec3(0.0), looking({0.5, -1.0, -0.3})}});   // Behind the wall.
+        scene.add(spot(0.6f), {at({1.0, -4.0, 2.0}, {0.0, 0.0, 0.0})});          // Beneath the floor.
+        scene.add(spot(0.9f), {at({3.0, 1.0, 2.0}, {0.0, 0.0, 0.0}), at({3.0, -1.0, 2.0}, {0.0, 0.0, 0.0})});  // Through it.
+        return scene;
+    };
+    const RenderSettings settings = small_settings(120, 90, 8);
+    const MovingTriangles still = sheets({});
+    expect_same_shadows(still, 0, settings);
+    const Both both = render_both(still, settings);
+    EXPECT_LT(ranges_of_light(both.one, 0) * 10, ranges_of_light(both.all, 0));
+    EXPECT_GT(ranges_of_light(both.one, 1) * 20, ranges_of_light(both.all, 1));
+    EXPECT_LT(ranges_of_light(both.one, 1), ranges_of_light(both.all, 1));
+    EXPECT_LT(ranges_of_light(both.one, 2), ranges_of_light(both.all, 2));
+    const MovingTriangles moving = sheets({0.0f, 0.1f, 0.0f});
+    expect_same_shadows(moving, 0, settings);
+    MovingTriangles under = sheets({});
+    add_quad(under, {2.0f, -0.5f, 1.0f}, {0.5f, 0.0f, 0.0f}, {0.0f, 0.0f, -0.5f});
+    expect_same_shadows(under, 0, settings);
+    const Both shadowed = render_both(under, settings);
+    EXPECT_GT(ranges_of_light(shadowed.one, 0) * 2, ranges_of_light(shadowed.all, 0)) << "the floor shadows what lies under it";
+}
+
 TEST(OneSide, NotWhereASpotIsInside) {
     for (const bool moves : {false, true}) {
         MovingTriangles scene = still_life(1);

@@ -138,6 +138,17 @@ TEST_P(OneSubmission, WorkgroupsThatTheDeviceCounts) {
     EXPECT_EQ(device.stage_times().at(0).dispatches, 2u);
 }
 
+// lavapipe lets an indirect dispatch begin where the last piece of a dispatch did.
+TEST_P(OneSubmission, WorkgroupsThatTheDeviceCountsAfterADispatchInPieces) {
+    const std::vector<Binding> bindings{{.name = "Visits", .buffer = &visits}};
+    recorder.dispatch("count", count_groups, bindings, kCount, kCount);
+    dispatch_count(700);
+    recorder.submit();
+    std::vector<uint32_t> expected(kCount, 2);
+    expected.push_back(0);
+    EXPECT_EQ(download_vector<uint32_t>(device, visits, kCount + 1), expected);
+}
+
 TEST_P(OneSubmission, WorkgroupsThatTheDeviceCountsInTheSameSubmission) {
     recorder.fill("clear", arguments, 1);
     recorder.fill("clear", arguments, 3, 4, 4);
