@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr size_t kMostNested = 32;  // Includes; glslang itself has no limit.
 constexpr uint32_t kFirstBinding = 16;
 constexpr uint32_t kEndBinding = 40;
-constexpr const char* kHint = "see ARCHITECTURE.md, A new layout";
+constexpr const char* kHint = "see CONTRIBUTING.md, A new layout";
 
 const EmbeddedFile* find_source(const std::string& name) {
     auto found = std::find_if(std::begin(kSourceTable), std::end(kSourceTable), [&](const auto& s) { return s.name == name; });

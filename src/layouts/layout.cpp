@@ -109,7 +109,7 @@ Layout parse_layout(std::string_view text, const std::string& where) {
         return layout;
     } catch (const nlohmann::json::exception& e) {
         throw Error(ErrorKind::input, std::string("not a layout's manifest: ") + e.what(), where,
-                    "see ARCHITECTURE.md, A new layout");
+                    "see CONTRIBUTING.md, A new layout");
     }
 }
 

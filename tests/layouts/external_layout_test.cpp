@@ -113,14 +113,14 @@ TEST_F(ExternalLayoutTest, MayBeInSeveralFiles) {
 TEST_F(ExternalLayoutTest, NamesFileAndLineOfASyntaxError) {
     copy_layout("linked");
     put_content(folder / "layout.glsl", "\n\n#ifdef LAYOUT_READ\nuint x = ;\n#endif\n" + content_of(folder / "layout.glsl"));
-    expect_input_error({"layout does not compile", "syntax error", path("layout.glsl:4"), "ARCHITECTURE.md"});
+    expect_input_error({"layout does not compile", "syntax error", path("layout.glsl:4"), "CONTRIBUTING.md"});
 }
 
 TEST_F(ExternalLayoutTest, NamesAMissingFunction) {
     for (const std::string name : {"layout_count", "layout_cursor", "layout_begin", "layout_more", "layout_next"}) {
         copy_layout("array");
         edit("layout.glsl", " " + name + "(", " other(");
-        expect_input_error({"layout does not compile", "'" + name + "'", path("layout.glsl"), "ARCHITECTURE.md, A new layout"});
+        expect_input_error({"layout does not compile", "'" + name + "'", path("layout.glsl"), "CONTRIBUTING.md, A new layout"});
     }
     // Declared only.
     copy_layout("array");
