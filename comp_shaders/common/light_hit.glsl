@@ -164,13 +164,16 @@ ShadowTest find_hit(uint i) {
     bool in_cone = kOrthographic || (place.z > 0.0 && place.x * place.x + place.y * place.y <= place.z * place.z * params.cone);
     if (kFaces) in_cone = place.z > 0.0 && on_face(h);
 
+    // Beyond the view nothing is listed, nor at its border.
+    bool in_view = max(abs(test.at.x), abs(test.at.y)) <= 0.5 * float(params.light_size) + 1.0;
+
     test.texel = texel_at(test.at, 0u);
     uint tile = (test.texel.y / kTileSize) * ((params.light_size + kTileSize - 1u) / kTileSize) + test.texel.x / kTileSize;
     // Of tiles that are not in the window the number wraps.
     uint window_tile = tile - params.light_tile_first;
     uint cell = cell_of(h.t, params.light_cell_count);
     test.item = params.light_cell_major == 0u ? window_tile * params.light_cell_count + cell : cell * params.light_tile_count + window_tile;
-    test.here = inside && in_cone && window_tile < params.light_tile_count && in_memory(test.item);
+    test.here = inside && in_cone && in_view && window_tile < params.light_tile_count && in_memory(test.item);
     test.list = list_of(test.item, test.texel);
     return test;
 }

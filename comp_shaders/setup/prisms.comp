@@ -1,8 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: for each prism in one cell of time: the tiles of the window that it may touch and the orientations in which it may be seen.
-//          kCasting: only what may shadow something. Of closed shells the orientation that looks away is enough; what stands still on the scene's hull shadows
-//          nothing while the eye is on the scene's side of it.
+//          kCasting: only those in which it may shadow something.
 // Reads:   triangles, raster_vertices, shells, closed, positions
 // Writes:  Rects of the cell (shared/rect.h), BlockCounts (blocks that bin/large will need, by parts of the triangles)
 // Grid:    one invocation per triangle
@@ -24,19 +23,7 @@ layout(binding = 3, scalar) buffer BlockCounts { uint block_counts[]; };
 layout(push_constant, scalar) uniform Push { PrismParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
-
-// The orientation in which the eye sees a triangle from the side on which the whole scene lies; 0 where it lies on both, or the triangle moves.
-uint hull_orientation(uint triangle, uint key_first) {
-    uvec3 v = fetch_triangles(triangle).xyz + key_first;
-    vec3 p0 = fetch_positions(v.x).xyz, p1 = fetch_positions(v.y).xyz, p2 = fetch_positions(v.z).xyz;
-    uvec3 next = v + params.grid.vertex_stride;
-    bool still = p0 == fetch_positions(next.x).xyz && p1 == fetch_positions(next.y).xyz && p2 == fetch_positions(next.z).xyz;
-    vec3 n = cross3(p1 - p0, p2 - p0);
-    vec3 a = n * (params.box_lower - p0), b = n * (params.box_upper - p0);
-    vec3 low = min(a, b), high = max(a, b);
-    uint orientation = low.x + low.y + low.z >= 0.0 ? kSeenNegative : (high.x + high.y + high.z <= 0.0 ? kSeenPositive : 0u);
-    return still ? orientation : 0u;
-}
+#include "common/casting.glsl"
 
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -52,10 +39,7 @@ void main() {
     bool in_front = cell_in_front(c);
     float extent = grid_extent(grid);
     uint seen = prism_orientations(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, c, extent);
-    if (kCasting) {
-        bool closed = fetch_closed(fetch_shells(triangle)) != 0u;
-        seen &= closed ? kSeenAway : ~hull_orientation(triangle, segment * grid.vertex_stride);
-    }
+    if (kCasting) seen = casting(triangle, seen, segment * grid.vertex_stride);
 
     CellBox box = cell_box(c, extent, time_slack(grid.cell_count));
     vec2 half_size = 0.5 * vec2(float(grid.width), float(grid.height));

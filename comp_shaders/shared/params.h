@@ -75,6 +75,12 @@ struct BoundsParams {
     uint key_count;
 };
 
+struct ExtentParams {
+    ViewGrid grid;
+    vec3 box_lower;  // Of the scene, at all keys.
+    vec3 box_upper;
+};
+
 struct ProjectParams {
     vec4 row_x;  // raster = rows * (position - origin, 1)
     vec4 row_y;

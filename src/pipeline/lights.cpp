@@ -6,6 +6,8 @@
 #include <gnomon/error.hpp>
 #include <optional>
 
+#include "stages/extent.hpp"
+
 namespace gnomon {
 namespace {
 
@@ -13,6 +15,14 @@ constexpr size_t kNotFilled = ~size_t(0);
 // A sixth at least of what is shared out is left for a band: of it a quarter goes to the batch; of the rest a quarter to the
 // film, and half to the camera's lists; of what remains at most a ninth to the lists of one tile.
 constexpr uint64_t kLeastShare = 6;
+
+// Texels along the side of a view of so many triangles: some to each, where they lie in one layer.
+uint32_t fitted_resolution(uint64_t triangles, uint32_t most) {
+    constexpr double kTexels = 2.0;
+    constexpr double kLeast = 360.0;
+    const double side = std::max(kLeast, std::sqrt(kTexels * static_cast<double>(triangles)));
+    return std::min(most, static_cast<uint32_t>(std::ceil(side / shared::kTileSize)) * shared::kTileSize);
+}
 
 void release_side(LightSide& side) {
     side.map.reset();
@@ -183,8 +193,19 @@ void Lights::project(size_t face) {
     side.map.reset();
     side.filled = kNotFilled;
     if (side.bins.raster_vertices) return;
-    side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view,
-                               shared_.method.light_cells(contexts_[face]));
+    const auto project = [&] {
+        side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view,
+                                   shared_.method.light_cells(contexts_[face]));
+    };
+    project();
+    if (faces_[face].fitted || !shared_.casting || !side.view.orthographic || shared_.settings.keep_texel_ranges) return;
+    faces_[face].fitted = true;
+    const Extents extents = casting_extents(shared_.device, shared_.programs, shared_.geometry, side.bins);
+    if (extents.boxes.empty()) return;
+    side.view = fitted(side.view, fitted_resolution(extents.triangles, shared_.settings.shadow_res), extents.boxes);
+    faces_[face].windows = windows_of(side.view, most_tiles(contexts_[face]));
+    side.bins = Bins();
+    project();
 }
 
 void Lights::map_lists(size_t face) {

@@ -55,6 +55,7 @@ private:
     struct Face {
         LightSide side;
         std::vector<Window> windows;
+        bool fitted = false;  ///< Its view shows what may shadow something, where that can be said.
         std::map<uint32_t, std::map<std::string, uint64_t>> counts;  ///< Of each window that was made, by its first tile.
         std::map<std::string, std::string> effective;
     };

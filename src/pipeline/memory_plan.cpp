@@ -13,7 +13,7 @@ constexpr uint32_t kMostCells = 16;
 constexpr uint32_t kLightCells = 4;
 // Enough samples to keep any device busy. On a CPU the buffers of a batch stay small; elsewhere each batch is a submission that
 // is waited for.
-constexpr uint64_t kBatchSlots = 4u << 20;
+constexpr uint64_t kBatchSlots = 1u << 20;
 constexpr uint64_t kGpuBatchSlots = 16u << 20;
 constexpr uint64_t kSlotBytes = 24;
 constexpr uint64_t kAskBytes = 24;

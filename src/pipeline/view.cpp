@@ -149,6 +149,29 @@ std::vector<View> light_faces(const Light& light, const std::vector<Pose>& poses
     return faces;
 }
 
+View fitted(const View& view, uint32_t resolution, const std::vector<ViewBox>& boxes) {
+    constexpr float kBorder = 2.0f;            // Texels on either side, beyond which no rounding reaches.
+    constexpr float kNarrowest = 1.0f / 64;    // Of the sides' ratio,
+    constexpr float kSmallest = 1.0f / 65536;  // and of the view.
+    glm::vec2 size(kSmallest * static_cast<float>(std::max(view.width, view.height)));
+    for (const ViewBox& box : boxes) size = glm::max(size, box.upper - box.lower);
+    size = glm::max(size, kNarrowest * std::max(size.x, size.y));
+    const glm::vec2 times = (static_cast<float>(resolution) - 2.0f * kBorder) / size;
+    View fit = view;
+    fit.width = fit.height = resolution;
+    fit.scale_x *= times.x;
+    fit.scale_y *= times.y;
+    for (size_t k = 0; k < boxes.size(); ++k) {
+        const glm::vec2 middle = 0.5f * (boxes[k].lower + boxes[k].upper);
+        ViewKey& key = fit.keys[k];
+        key.row_x.w -= middle.x;
+        key.row_y.w -= middle.y;
+        key.row_x *= times.x;
+        key.row_y *= times.y;
+    }
+    return fit;
+}
+
 float least_tolerance(const Bounds& bounds) {
     glm::vec3 largest = glm::max(glm::abs(bounds.lower), glm::abs(bounds.upper));
     return std::ldexp(std::max({largest.x, largest.y, largest.z, 1e-30f}), -23);

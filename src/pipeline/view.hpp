@@ -45,6 +45,16 @@ View camera_view(const Camera& camera, const std::vector<Pose>& poses, uint32_t 
 std::vector<View> light_faces(const Light& light, const std::vector<Pose>& poses, uint32_t light_ix, const Bounds& bounds,
                               uint32_t resolution);
 
+/// Raster units.
+struct ViewBox {
+    glm::vec2 lower{0.0f};
+    glm::vec2 upper{0.0f};
+};
+
+/// An orthographic view of so many texels along a side that shows at key k boxes[k] of `view`, and little else: between keys
+/// its window moves as the boxes do.
+View fitted(const View& view, uint32_t resolution, const std::vector<ViewBox>& boxes);
+
 /// The least metres along a hit's normal within which nothing occludes it: 2^-23 of the scene's largest coordinate, the
 /// rounding of a light's space. At most hits 2^-20 of their own largest coordinate is more, and taken.
 float least_tolerance(const Bounds& bounds);
