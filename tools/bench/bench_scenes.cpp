@@ -137,6 +137,9 @@ const std::vector<BenchScene>& bench_scenes() {
         scenes.push_back(of_4k(two_cubes()));
         scenes.push_back(of_4k(random_cubes()));
         scenes.push_back(pillars());
+        scenes.push_back(pillars());
+        scenes.back().name += "-point";
+        scenes.back().point = true;
         return scenes;
     }();
     return all;
@@ -171,6 +174,7 @@ std::vector<BenchScene> choose_scenes(const std::vector<std::string>& names) {
 PosedScene make_scene(const BenchScene& scene, double scale) {
     const auto count = static_cast<uint32_t>(std::max<double>(scene.least, std::round(scene.count * scale * scale)));
     PosedScene posed = makers::make_posed([&](const fs::path& path) { scene.make(path, count); });
+    if (scene.point) posed.scene.lights.at(0).kind = LightKind::point;
     add_suns(posed, scene.lights);
     return posed;
 }

@@ -21,6 +21,7 @@ struct BenchScene {
     uint32_t width = 1024, height = 768;
     uint32_t shadow_res = 1024;
     uint32_t lights = 1;  ///< Suns are added up to this number.
+    bool point = false;   ///< The scene's light shines to all sides.
     uint32_t count = 0;   ///< What the maker makes, at full size.
     uint32_t least = 1;   ///< What it allows.
     std::function<void(const std::filesystem::path&, uint32_t count)> make;
