@@ -199,8 +199,8 @@ void Lights::project(size_t face) {
     };
     project();
     if (faces_[face].fitted || !shared_.casting || !side.view.orthographic || shared_.settings.keep_texel_ranges) return;
-    faces_[face].fitted = true;
     const Extents extents = casting_extents(shared_.device, shared_.programs, shared_.geometry, side.bins);
+    faces_[face].fitted = true;
     if (extents.boxes.empty()) return;
     side.view = fitted(side.view, fitted_resolution(extents.triangles, shared_.settings.shadow_res), extents.boxes);
     faces_[face].windows = windows_of(side.view, most_tiles(contexts_[face]));
