@@ -150,13 +150,14 @@ std::vector<View> light_faces(const Light& light, const std::vector<Pose>& poses
 }
 
 View fitted(const View& view, uint32_t resolution, const std::vector<ViewBox>& boxes) {
-    constexpr float kBorder = 2.0f;            // Texels on either side, beyond which no rounding reaches.
+    // Texels on either side, beyond which no rounding reaches.
+    const float border = std::min(2.0f, 0.25f * static_cast<float>(resolution));
     constexpr float kNarrowest = 1.0f / 64;    // Of the sides' ratio,
     constexpr float kSmallest = 1.0f / 65536;  // and of the view.
     glm::vec2 size(kSmallest * static_cast<float>(std::max(view.width, view.height)));
     for (const ViewBox& box : boxes) size = glm::max(size, box.upper - box.lower);
     size = glm::max(size, kNarrowest * std::max(size.x, size.y));
-    const glm::vec2 times = (static_cast<float>(resolution) - 2.0f * kBorder) / size;
+    const glm::vec2 times = (static_cast<float>(resolution) - 2.0f * border) / size;
     View fit = view;
     fit.width = fit.height = resolution;
     fit.scale_x *= times.x;

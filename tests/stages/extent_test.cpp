@@ -108,6 +108,11 @@ TEST(FittedView, FollowsTheBoxes) {
     }
     EXPECT_FLOAT_EQ(fit.scale_x, view.scale_x * 252.0f / 20.0f);
     EXPECT_FLOAT_EQ(fit.scale_y, view.scale_y * 252.0f / 5.0f);
+    for (const uint32_t resolution : {1u, 3u, 4u, 5u}) {
+        const View small = fitted(view, resolution, boxes);
+        EXPECT_GT(small.scale_x, 0.0f) << resolution;
+        EXPECT_LE(small.scale_x * 20.0f, view.scale_x * static_cast<float>(resolution)) << resolution;
+    }
     const View point = fitted(view, 256, {{{1.0f, 1.0f}, {1.0f, 1.0f}}, {{1.0f, 1.0f}, {1.0f, 1.0f}}});
     EXPECT_TRUE(std::isfinite(point.scale_x) && std::isfinite(point.scale_y));
 }
