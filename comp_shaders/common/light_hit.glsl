@@ -84,7 +84,7 @@ bool on_face(Receiver h) {
 uint hit_count() { return fetch_runs(params.run_count); }
 
 // The hit of the queue that this invocation tests; there is none from hit_count on.
-uint take_hit() { return spread_group((hit_count() + 63u) / 64u) * gl_WorkGroupSize.x + gl_LocalInvocationIndex; }
+uint take_hit() { return spread_first(hit_count(), gl_WorkGroupSize.x) + gl_LocalInvocationIndex; }
 
 // A hit as the light's view holds it.
 struct ShadowTest {

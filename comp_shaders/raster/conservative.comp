@@ -39,7 +39,7 @@ const float kReach = 0.5 * float(kTileSize);
 
 void main() {
     Crew crew = join_crew();
-    uint item = params.item_first + spread_group((params.item_count + 7u) / 8u) * 8u + (crewed_invocation() >> 3u);
+    uint item = params.item_first + spread_first(params.item_count, 8u) + (crewed_invocation() >> 3u);
     uint lane = crewed_invocation() & 7u;
     bool inside = item < params.item_first + params.item_count;
     item = min(item, params.item_first + params.item_count - 1u);

@@ -45,4 +45,4 @@ void visit(uint list, uint triangle, PrismFragments f) {
     }
 }
 
-void main() { visit_texels(spread_group((params.item_count + 7u) / 8u) * 8u + (gl_LocalInvocationID.x >> 3u)); }
+void main() { visit_texels(spread_first(params.item_count, 8u) + (gl_LocalInvocationID.x >> 3u)); }

@@ -37,7 +37,7 @@ void visit(uint list, uint triangle, PrismFragments f) {
 }
 
 void main() {
-    uint number = spread_group((params.item_count + 7u) / 8u) * 8u + (gl_LocalInvocationID.x >> 3u);
+    uint number = spread_first(params.item_count, 8u) + (gl_LocalInvocationID.x >> 3u);
     visit_texels(number);
     if (kPass == 0u) add_range_count(min(params.item_first + number, params.item_first + params.item_count - 1u) / kCountBlock, total);
 }

@@ -30,7 +30,7 @@ uint range_base() { return params.range_first; }
 #include "layout.glsl"
 
 void main() {
-    uint number = spread_group(params.item_count);
+    uint number = spread_first(params.item_count, 1u);
     bool inside = number < params.item_count;
     number = min(number, params.item_count - 1u);
     uint item = params.item_first + number;

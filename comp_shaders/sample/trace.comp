@@ -52,7 +52,7 @@ void main() {
     ViewGrid grid = params.grid;
     uint item_count = params.tile_count * params.stratum_count;
     Crew crew = join_crew();
-    uint item = spread_group((item_count + 7u) / 8u) * 8u + (crewed_invocation() >> 3u);
+    uint item = spread_first(item_count, 8u) + (crewed_invocation() >> 3u);
     uint lane = crewed_invocation() & 7u;
     bool inside = item < item_count;
     item = min(item, item_count - 1u);

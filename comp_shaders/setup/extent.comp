@@ -45,7 +45,7 @@ void main() {
     uint segment = 0u;
     do {
         uint key_first = segment * grid.vertex_stride;
-        vec2 lower = vec2(3.4e38), upper = vec2(-3.4e38), next_lower = lower, next_upper = upper;
+        vec2 lower = vec2(kFarthest), upper = vec2(-kFarthest), next_lower = lower, next_upper = upper;
         uint i = 0u, count = 0u;
         do {
             uint triangle = min(first + i, grid.triangle_count - 1u);

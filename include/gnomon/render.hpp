@@ -21,7 +21,7 @@ struct RenderSettings {
     uint32_t spp = 16;      ///< Samples per pixel, 1 to 65536.
     uint32_t seed = 0;
     uint32_t camera = 0;         ///< Index into Scene::cameras.
-    uint32_t shadow_res = 1024;  ///< Texels along a light view's side, 1 to 16384.
+    uint32_t shadow_res = 1024;  ///< Texels along a light view's side, 1 to 16384; of a sun's at most, for exact.
     std::string method = "exact";
     std::string layout = "auto";  ///< A registered layout, a folder that holds one, or auto: what the method is made for.
     std::string raster =
@@ -31,7 +31,8 @@ struct RenderSettings {
     std::string pages = "auto";
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
-    /// Of closed meshes list one side only, where the picture does not depend on what is listed (method exact). For comparison.
+    /// Of closed meshes list one side only, and nothing that shadows nothing, in views of suns that are fitted to what is left,
+    /// where the picture does not depend on what is listed (method exact). For comparison.
     bool closed_meshes = true;
     uint64_t memory_budget = 0;      ///< Most bytes of device memory; 0: half the device's heap.
     bool keep_samples = false;       ///< Fill Frame::samples.

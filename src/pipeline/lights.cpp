@@ -193,19 +193,23 @@ void Lights::project(size_t face) {
     side.map.reset();
     side.filled = kNotFilled;
     if (side.bins.raster_vertices) return;
-    const auto project = [&] {
+    do {
+        side.bins = Bins();
         side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view,
                                    shared_.method.light_cells(contexts_[face]));
-    };
-    project();
-    if (faces_[face].fitted || !shared_.casting || !side.view.orthographic || shared_.settings.keep_texel_ranges) return;
+    } while (fit(face));
+}
+
+bool Lights::fit(size_t face) {
+    Face& made = faces_[face];
+    LightSide& side = made.side;
+    if (made.fitted || !shared_.casting || !side.view.orthographic || shared_.settings.keep_texel_ranges) return false;
     const Extents extents = casting_extents(shared_.device, shared_.programs, shared_.geometry, side.bins);
-    faces_[face].fitted = true;
-    if (extents.boxes.empty()) return;
+    made.fitted = true;
+    if (extents.boxes.empty()) return false;
     side.view = fitted(side.view, fitted_resolution(extents.triangles, shared_.settings.shadow_res), extents.boxes);
-    faces_[face].windows = windows_of(side.view, most_tiles(contexts_[face]));
-    side.bins = Bins();
-    project();
+    made.windows = windows_of(side.view, most_tiles(contexts_[face]));
+    return true;
 }
 
 void Lights::map_lists(size_t face) {

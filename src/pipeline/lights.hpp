@@ -55,7 +55,7 @@ private:
     struct Face {
         LightSide side;
         std::vector<Window> windows;
-        bool fitted = false;  ///< Its view shows what may shadow something, where that can be said.
+        bool fitted = false;                                         ///< Its view was, or need not be.
         std::map<uint32_t, std::map<std::string, uint64_t>> counts;  ///< Of each window that was made, by its first tile.
         std::map<std::string, std::string> effective;
     };
@@ -70,6 +70,8 @@ private:
     void cut_to_fit(size_t face, size_t window, bool only_count);  ///< Count: nothing need be filled.
     bool fits(size_t face, size_t window);                         ///< Without halving it; then it is in memory.
     void project(size_t face);
+    /// Fit the projected face's view to what may shadow something, once; true where that changed it.
+    bool fit(size_t face);
     void ask(size_t face);
     void map_lists(size_t face);
     void finish_map(size_t face);

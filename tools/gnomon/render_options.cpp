@@ -98,9 +98,9 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
         ->check(CLI::IsMember({"auto", "asked", "all"}).description(""))
         ->capture_default_str()
         ->group(picture);
-    add_parsed(command, "--shadow-res", "N", "1024", "Texels along a light view's side; of a sun's at most, for exact", [&o](Text text, Text name) {
-        o.settings.shadow_res = parse_count(text, name, 1, 16384);
-    })->group(picture);
+    add_parsed(command, "--shadow-res", "N", "1024", "Texels along a light view's side; of a sun's at most, for exact",
+               [&o](Text text, Text name) { o.settings.shadow_res = parse_count(text, name, 1, 16384); })
+        ->group(picture);
 
     command
         .add_flag("!--no-closed-meshes", o.settings.closed_meshes,
