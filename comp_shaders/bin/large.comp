@@ -13,6 +13,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kByBounds = false;  // Each prism once, in every tile of its bounds.
+layout(constant_id = 2) const bool kApart = false;     // As in bin/small.
 READ_UVEC2(0, blocks)
 READ_UVEC2(1, rects)
 READ_UVEC4(2, triangles)
@@ -31,6 +32,7 @@ void main() {
     uint triangle = block.x;
     uint cell = block.y >> 20u;
     Rect rect = unpack_rect(fetch_rects(cell * params.rect_stride + triangle - params.triangle_first));
+    uint tile_lists = grid.cell_count + (kApart ? 1u : 0u);
     uint columns = rect.last.x - rect.first.x + 1u;
     uint rounds = rect_rounds(rect.first, rect.last);
 
@@ -53,7 +55,7 @@ void main() {
 
         uint copies = (positive ? 1u : 0u) + (negative ? 1u : 0u);
         if (copies > 0u) {
-            uint place = atomicAdd(lists[(t.y * grid.tiles_x + t.x - grid.tile_first) * grid.cell_count + cell], copies);
+            uint place = atomicAdd(lists[(t.y * grid.tiles_x + t.x - grid.tile_first) * tile_lists + cell], copies);
             if (kFill) {
                 entries[place] = triangle | (positive ? 0u : kReversed);
                 if (copies == 2u) entries[place + 1u] = triangle | kReversed;

@@ -11,6 +11,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kByBounds = false;  // Each prism once.
+layout(constant_id = 2) const bool kApart = false;     // A tile has a list behind those of its cells, for what stands still.
 READ_UVEC2(0, rects)
 layout(binding = 1, scalar) buffer Lists { uint lists[]; };
 layout(binding = 2, scalar) writeonly buffer Entries { uint entries[]; };
@@ -25,9 +26,10 @@ void main() {
     uint copies = rect.seen == 3u && !kByBounds ? 2u : 1u;
     uint first_entry = triangle | (rect.seen == 2u && !kByBounds ? kReversed : 0u);
     uvec2 tile = rect.first;
+    uint tile_lists = params.grid.cell_count + (kApart ? 1u : 0u);
     bool more;
     do {
-        uint list = (tile.y * params.grid.tiles_x + tile.x - params.grid.tile_first) * params.grid.cell_count + params.cell;
+        uint list = (tile.y * params.grid.tiles_x + tile.x - params.grid.tile_first) * tile_lists + params.cell;
         if (listed) {
             uint place = atomicAdd(lists[list], copies);
             if (kFill) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A prism within one cell of time. Needs common/triangle.glsl.
+// A prism within one cell of time. Behind the last cell comes one that lasts as long as the shutter, for what stands still.
+// Needs common/triangle.glsl.
 
 #include "math/texel_range.h"
 
-uint segment_of_cell(ViewGrid grid, uint cell) { return cell / (grid.cell_count / grid.segment_count); }
+uint segment_of_cell(ViewGrid grid, uint cell) { return cell == grid.cell_count ? 0u : cell / (grid.cell_count / grid.segment_count); }
 
 // Local times in the cell's segment at which the cell starts and ends.
 vec2 cell_span(ViewGrid grid, uint cell) {
+    if (cell == grid.cell_count) return vec2(0.0, 1.0);
     uint per_segment = grid.cell_count / grid.segment_count;
     uint first = cell - segment_of_cell(grid, cell) * per_segment;
     return vec2(float(first), float(first + 1u)) / float(per_segment);

@@ -30,7 +30,9 @@ ShadowTest asked_hit(uint i) {
     test.depth = asked.w;
     test.behind = (node_time.x & kReversed) != 0u;
     test.receiver.t = uintBitsToFloat(node_time.y);
-    test.receiver.segment = divide(cell_of(test.receiver.t, params.light_cell_count) * params.camera.segment_count, params.light_cell_count);
+    // Of its list; of what stands still one cell has all segments.
+    uint cells = max(params.light_cell_count, params.camera.segment_count);
+    test.receiver.segment = divide(cell_of(test.receiver.t, cells) * params.camera.segment_count, cells);
     test.receiver.local_time = local_time_of(test.receiver.t, test.receiver.segment, params.camera.segment_count);
     // Its page, at the page's level.
     test.texel = texel_at(test.at, leaf & 15u);

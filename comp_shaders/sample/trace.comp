@@ -14,6 +14,7 @@ layout(constant_id = 1) const bool kStraddle = false;  // A stratum may lie in s
 layout(constant_id = 2) const bool kContinue = false;  // Go on from the hits of an earlier part of the lists.
 layout(constant_id = 3) const bool kSliced = false;    // Samples are slice_points.
 layout(constant_id = 4) const uint kCrew = 8u;
+layout(constant_id = 5) const bool kApart = false;  // What stands still is listed behind a tile's cells.
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
@@ -46,6 +47,13 @@ void test(MovingTriangle m, uint entry, vec3 xys, inout Best best) {
     bool hit = covers(e) && depth > params.depth_near && nearer;
     best.depth = hit ? depth : best.depth;
     best.entry = hit ? entry : best.entry;
+}
+
+// First entry and number of what this dispatch walks of a list.
+uvec2 list_part(uint list) {
+    uint begin = fetch_bin_offsets(list) + params.list_first;
+    uint end = max(fetch_bin_offsets(list + 1u), begin);
+    return uvec2(begin, min(end - begin, kListChunk));
 }
 
 void main() {
@@ -90,16 +98,18 @@ void main() {
         }
     }
 
-    uint list = (tile - grid.tile_first) * grid.cell_count + cell;
-    uint begin = fetch_bin_offsets(list) + params.list_first;
-    uint end = max(fetch_bin_offsets(list + 1u), begin);
-    uint count = walked ? min(end - begin, kListChunk) : 0u;
+    uint tile_lists = grid.cell_count + (kApart ? 1u : 0u);
+    uint list = (tile - grid.tile_first) * tile_lists;
+    uvec2 moving = list_part(list + cell);
+    uvec2 still = kApart ? list_part(list + grid.cell_count) : uvec2(0u);
+    uint count = walked ? moving.y + still.y : 0u;
     uint rounds = rounds_of(count);
     uint k = 0u;
     do {
         // Past the end: the triangle behind the last, whose vertices coincide and which covers nothing.
         uint own = k + crew.place;
-        uint own_entry = own < count ? fetch_bin_entries(begin + own) : grid.triangle_count;
+        uint place = own < moving.y ? moving.x + own : still.x + own - moving.y;
+        uint own_entry = own < count ? fetch_bin_entries(place) : grid.triangle_count;
         MovingTriangle own_triangle = fetch_moving_triangle(own_entry, key_first, grid.vertex_stride);
         uint from = 0u;
         uint last = min(crew.size, rounds - k);

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: where in an orthographic view lies what may shadow something, at each key, and how many triangles that is.
-// Reads:   triangles, raster_vertices, shells, closed, positions
+// Reads:   triangles, raster_vertices, shells, closed, positions, still
 // Writes:  Extents (per key: lower and upper corner, raster units as ordered bits, math/order.h; triangles of the segment that begins with it)
 // Grid:    one invocation per kBoundsRun triangles
 #extension GL_GOOGLE_include_directive : require
@@ -12,11 +12,13 @@
 #extension GL_KHR_shader_subgroup_arithmetic : require
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint kPart = kWholeScene;
 READ_UVEC4(0, triangles)
 READ_VEC4(1, raster_vertices)
 READ_UINT(2, shells)
 READ_UINT(3, closed)
 READ_VEC4(4, positions)
+READ_UINT(6, still)
 struct Extent {
     uvec2 lower;
     uvec2 upper;
@@ -52,7 +54,7 @@ void main() {
             MovingTriangle m = fetch_moving_triangle(triangle, key_first, grid.vertex_stride);
             CellTriangle c = cell_triangle(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, 0.0, 1.0);
             uint seen = prism_orientations(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, c, grid_extent(grid));
-            if (first + i < grid.triangle_count && casting(triangle, seen, key_first) != 0u) {
+            if (first + i < grid.triangle_count && in_part(triangle) && casting(triangle, seen) != 0u) {
                 ++count;
                 lower = min(lower, min(c.a0.xy, min(c.a1.xy, c.a2.xy)));
                 upper = max(upper, max(c.a0.xy, max(c.a1.xy, c.a2.xy)));

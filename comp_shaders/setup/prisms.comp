@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: for each prism in one cell of time: the tiles of the window that it may touch and the orientations in which it may be seen.
 //          kCasting: only those in which it may shadow something.
-// Reads:   triangles, raster_vertices, shells, closed, positions
+// Reads:   triangles, raster_vertices, shells, closed, positions, still
 // Writes:  Rects of the cell (shared/rect.h), BlockCounts (blocks that bin/large will need, by parts of the triangles)
 // Grid:    one invocation per triangle
 // Source:  bounds of a linear motion are those of its ends, since x / w is monotone in time for w > 0
@@ -13,11 +13,13 @@
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kCasting = false;
+layout(constant_id = 1) const uint kPart = kWholeScene;
 READ_UVEC4(0, triangles)
 READ_VEC4(1, raster_vertices)
 READ_UINT(4, shells)
 READ_UINT(5, closed)
 READ_VEC4(6, positions)
+READ_UINT(7, still)
 layout(binding = 2, scalar) writeonly buffer Rects { uvec2 rects[]; };
 layout(binding = 3, scalar) buffer BlockCounts { uint block_counts[]; };
 layout(push_constant, scalar) uniform Push { PrismParams params; };
@@ -39,7 +41,8 @@ void main() {
     bool in_front = cell_in_front(c);
     float extent = grid_extent(grid);
     uint seen = prism_orientations(m.a0, m.a1, m.a2, m.d0, m.d1, m.d2, c, extent);
-    if (kCasting) seen = casting(triangle, seen, segment * grid.vertex_stride);
+    if (kCasting) seen = casting(triangle, seen);
+    if (!in_part(triangle)) seen = 0u;
 
     CellBox box = cell_box(c, extent, time_slack(grid.cell_count));
     vec2 half_size = 0.5 * vec2(float(grid.width), float(grid.height));

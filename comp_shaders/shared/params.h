@@ -19,6 +19,10 @@ const uint kNone = 0xffffffffu;
 const uint kPerspectiveView = 0u;
 const uint kOrthographicView = 1u;
 const uint kFaceView = 2u;
+// Triangles that stand still at all keys may be listed apart from all others.
+const uint kWholeScene = 0u;
+const uint kStillPart = 1u;
+const uint kMovingPart = 2u;
 // Set in a list's entry: the triangle with its orientation reversed (vertices 1 and 2 swapped).
 const uint kReversed = 0x80000000u;
 // Prisms whose bounds in a cell hold at most this many tiles are binned without a closer look.

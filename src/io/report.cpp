@@ -24,6 +24,7 @@ Json settings_json(const RenderSettings& settings) {
         {"raster", settings.raster},
         {"pages", settings.pages},
         {"closed_meshes", settings.closed_meshes},
+        {"static_once", settings.static_once},
         {"memory_budget", settings.memory_budget},
     };
     for (const auto& [name, value] : settings.parameters) {

@@ -85,11 +85,8 @@ Eye::Eye(Eye&&) noexcept = default;
 
 Eye::Eye(const View& view) {
     const std::vector<glm::dvec3> corners = eye_corners(view);
-    const auto same = [](const ViewKey& a, const ViewKey& b) {
-        return a.row_x == b.row_x && a.row_y == b.row_y && a.row_z == b.row_z && a.row_w == b.row_w && a.origin == b.origin;
-    };
     for (size_t k = 0; k + 1 < view.keys.size(); ++k) {
-        if (k > 0 && same(view.keys[k - 1], view.keys[k]) && same(view.keys[k], view.keys[k + 1])) continue;
+        if (k > 0 && view.keys[k - 1] == view.keys[k] && view.keys[k] == view.keys[k + 1]) continue;
         const std::array spaces = {Space(view, view.keys[k]), Space(view, view.keys[k + 1])};
         Segment& segment = segments_.emplace_back();
         for (size_t i = 0; i < segment.axes.size(); ++i) {

@@ -106,7 +106,11 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
         closed_triangles =
             std::inner_product(closed.begin(), closed.end(), geometry.scene->shell_triangles.begin(), uint64_t{0});
     }
-    Bins bins = project_prisms(device, programs, geometry, view, camera_cells(settings.spp, geometry.segment_count, still));
+    const uint32_t cells = camera_cells(settings.spp, geometry.segment_count, still);
+    const uint32_t still_triangles = gpu::values_of<uint32_t>(device, geometry.still_triangles)[0];
+    const bool apart =
+        settings.static_once && view.still() && worth_apart(still_triangles, geometry.scene->triangle_count, cells);
+    Bins bins = project_prisms(device, programs, geometry, view, cells, apart ? Part::apart : Part::whole);
     // What there is to share out: a light's vertices have to fit in as well.
     const uint64_t light_bytes = scene.lights.empty() ? 0 : bins.raster_vertices.bytes();
     const auto left = [&] { return device.budget_left() - std::min(device.budget_left(), light_bytes); };
@@ -166,6 +170,7 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
     frame.stats.counts["triangles"] = geometry.scene->triangle_count;
     frame.stats.counts["closed_triangles"] = closed_triangles;
+    frame.stats.counts["still_triangles"] = still_triangles;
     frame.stats.counts["prisms"] = uint64_t(geometry.scene->triangle_count) * geometry.segment_count;
     frame.stats.counts["bin_entries.camera"] = camera_entries;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;

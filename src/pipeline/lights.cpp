@@ -6,6 +6,7 @@
 #include <gnomon/error.hpp>
 #include <optional>
 
+#include "pipeline/memory_plan.hpp"
 #include "stages/extent.hpp"
 
 namespace gnomon {
@@ -40,10 +41,13 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
       light_count_(static_cast<uint32_t>(scene.lights.size())),
       tolerance_(least_tolerance(bounds)) {
     for (uint32_t i = 0; i < light_count_; ++i) {
-        for (View& view : light_faces(scene.lights[i], poses, i, bounds, shared_.settings.shadow_res)) {
-            Face& face = faces_.emplace_back();
-            face.side.light_ix = i;
-            face.side.view = std::move(view);
+        for (const View& view : light_faces(scene.lights[i], poses, i, bounds, shared_.settings.shadow_res)) {
+            for (const Part part : parts_of(view)) {
+                Face& face = faces_.emplace_back();
+                face.part = part;
+                face.side.light_ix = i;
+                face.side.view = view;
+            }
         }
     }
     for (Face& face : faces_) {
@@ -51,14 +55,33 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
                              face.side.view, face.side.light_ix, shared_.still, 0, shared_.layout, shared_.raster,
                              &shared_.camera});
         const uint64_t all = uint64_t(tiles_across(face.side.view)) * tiles_down(face.side.view);
-        face.windows = windows_of(face.side.view, shared_.method.windowed ? most_tiles(contexts_.back()) : all);
+        face.windows = windows_of(face.side.view, shared_.method.windowed ? most_tiles(contexts_.size() - 1) : all);
     }
 }
 
+// What stands still is listed apart where that is worth a second way through the queue of hits.
+std::vector<Part> Lights::parts_of(const View& view) const {
+    constexpr uint64_t kPrismHits = 4;  // Shadow tests that take as long as listing a prism and finding its ranges.
+    const RenderSettings& settings = shared_.settings;
+    if (!settings.static_once || settings.keep_texel_ranges || !shared_.method.any_texels || !view.still())
+        return {Part::whole};
+    const uint32_t triangles = shared_.geometry.scene->triangle_count;
+    const uint32_t still = gpu::values_of<uint32_t>(shared_.device, shared_.geometry.still_triangles)[0];
+    if (still == triangles) return {Part::still};
+    const uint32_t cells = light_cells(shared_.geometry.segment_count, shared_.still);
+    const uint64_t samples = uint64_t(settings.width) * settings.height * settings.spp;
+    if (!worth_apart(still, triangles, cells) || uint64_t(still) * (cells - 1) * kPrismHits < samples) return {Part::whole};
+    return {Part::still, Part::moving};
+}
+
+uint32_t Lights::cells(size_t face) const {
+    return faces_[face].part == Part::still ? 1 : shared_.method.light_cells(contexts_[face]);
+}
+
 // So that what there is of each list can be bound. What depends on the scene is found when a window is made.
-uint64_t Lights::most_tiles(const LightContext& context) const {
+uint64_t Lights::most_tiles(size_t face) const {
     const gpu::Limits& limits = shared_.device.limits();
-    const uint64_t cells = shared_.method.light_cells(context);
+    const uint64_t cells = this->cells(face);
     const uint64_t lists = std::min(limits.max_storage_range / 4, limits.most_elements(4)) - shared::kScanRun;
     // A map without ranges has at most 8 bytes for a texel in one binding.
     const uint64_t texels = shared_.method.has_s_buffer() ? (limits.most_elements(4) - shared::kScanRun) / cells
@@ -195,8 +218,8 @@ void Lights::project(size_t face) {
     if (side.bins.raster_vertices) return;
     do {
         side.bins = Bins();
-        side.bins = project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view,
-                                   shared_.method.light_cells(contexts_[face]));
+        side.bins =
+            project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, cells(face), faces_[face].part);
     } while (fit(face));
 }
 
@@ -208,7 +231,7 @@ bool Lights::fit(size_t face) {
     made.fitted = true;
     if (extents.boxes.empty()) return false;
     side.view = fitted(side.view, fitted_resolution(extents.triangles, shared_.settings.shadow_res), extents.boxes);
-    made.windows = windows_of(side.view, most_tiles(contexts_[face]));
+    made.windows = windows_of(side.view, most_tiles(face));
     return true;
 }
 

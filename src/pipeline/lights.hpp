@@ -51,16 +51,19 @@ public:
     std::vector<std::vector<uint32_t>> texel_ranges();
 
 private:
-    /// One projection of a light.
+    /// One projection of a light, of the scene or a part of it.
     struct Face {
         LightSide side;
+        Part part = Part::whole;
         std::vector<Window> windows;
         bool fitted = false;                                         ///< Its view was, or need not be.
         std::map<uint32_t, std::map<std::string, uint64_t>> counts;  ///< Of each window that was made, by its first tile.
         std::map<std::string, std::string> effective;
     };
 
-    uint64_t most_tiles(const LightContext& context) const;
+    std::vector<Part> parts_of(const View& view) const;
+    uint32_t cells(size_t face) const;
+    uint64_t most_tiles(size_t face) const;
     Listing listing() const;
     bool asks(const Bins& bins) const;
     void make_together();

@@ -125,6 +125,10 @@ uint32_t light_cells(uint32_t segments, bool still) {
     return std::max(1u, kLightCells / segments) * segments;
 }
 
+bool worth_apart(uint64_t still_triangles, uint64_t triangles, uint32_t cells) {
+    return still_triangles * (cells - 1) > triangles;
+}
+
 uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t lit_planes, bool asks,
                      uint64_t bytes) {
     const gpu::Limits& limits = device.limits();

@@ -2,6 +2,7 @@
 // Views: a projection with motion. The camera and the faces of lights become the same thing here.
 #pragma once
 
+#include <algorithm>
 #include <gnomon/render.hpp>
 #include <gnomon/scene.hpp>
 #include <vector>
@@ -15,6 +16,7 @@ namespace gnomon {
 struct ViewKey {
     glm::vec4 row_x, row_y, row_z, row_w;
     glm::vec3 origin;
+    bool operator==(const ViewKey&) const = default;
 };
 
 struct View {
@@ -29,6 +31,10 @@ struct View {
     float cone = 0.0f;  ///< Spots: squared tangent of the outer half angle; of several faces its cosine, points: less than -1.
     std::vector<ViewKey> keys;
 
+    /// It neither moves nor turns.
+    bool still() const {
+        return std::all_of(keys.begin(), keys.end(), [&](const ViewKey& key) { return key == keys.front(); });
+    }
     /// kPerspectiveView, kOrthographicView or kFaceView.
     uint32_t projection() const {
         if (orthographic) return shared::kOrthographicView;

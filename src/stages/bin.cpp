@@ -61,7 +61,7 @@ public:
           casting_(listing == Listing::casting),
           bins_(bins) {
         const gpu::Limits& limits = device.limits();
-        const uint64_t cells = bins.grid.cell_count;
+        const uint64_t cells = bins.tile_lists();
         const uint64_t bytes = std::min({kRectBytes, limits.max_storage_range, limits.most_elements(8) * sizeof(glm::uvec2),
                                          std::max(kLeastBytes, device.budget_left() / 8)});
         const uint64_t most =
@@ -84,7 +84,7 @@ public:
             const Run chunk{first, std::min(chunk_, bins_.grid.triangle_count - first)};
             if (chunk.first != chunk_in_memory_.first) set_up(chunk);
             make_passes();
-            for (uint32_t cell = 0; cell < bins_.grid.cell_count; ++cell) list_small(fill, chunk, cell, lists, entries);
+            for (uint32_t cell = 0; cell < bins_.tile_lists(); ++cell) list_small(fill, chunk, cell, lists, entries);
             for (const BlockPass& pass : passes_) list_large(fill, chunk, pass, lists, entries);
         }
     }
@@ -93,15 +93,16 @@ private:
     // The rectangles of a chunk.
     void set_up(const Run& chunk) {
         gpu::Recorder& recorder = device_.recorder();
-        const uint32_t cells = bins_.grid.cell_count;
+        const uint32_t cells = bins_.tile_lists();
         recorder.fill("setup/prisms", block_counts_, 0);
         for (uint32_t cell = 0; cell < cells; ++cell) {
-            recorder.dispatch("setup/prisms", programs_.get("setup/prisms", {casting_}),
+            recorder.dispatch("setup/prisms", programs_.get("setup/prisms", {casting_, part_of(cell)}),
                               bindings({{"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                         {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                         {"shells", &geometry_.scene->shells, Texel::r32_uint},
                                         {"closed", &geometry_.closed, Texel::r32_uint},
                                         {"positions", &geometry_.positions, Texel::rgba32_float},
+                                        {"still", &geometry_.still, Texel::r32_uint},
                                         {"Rects", &rects_, {}, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
                                         {"BlockCounts", &block_counts_}}),
                               shared::PrismParams{bins_.grid, cell, chunk.first, chunk.count, part_log2_, cell * parts_,
@@ -119,7 +120,7 @@ private:
         blocks_of_chunk_.reset();
         passes_.clear();
         uint32_t most = 0;
-        const uint32_t cells = bins_.grid.cell_count;
+        const uint32_t cells = bins_.tile_lists();
         for (uint32_t cell = 0; cell < cells; ++cell) {
             for (uint32_t part = 0; part < parts_; ++part) {
                 const uint32_t blocks = counts[cell * parts_ + part];
@@ -140,7 +141,7 @@ private:
     }
 
     void list_small(bool fill, const Run& chunk, uint32_t cell, const gpu::Buffer& lists, const gpu::Buffer& entries) const {
-        device_.recorder().dispatch(fill ? "bin/fill" : "bin/count", programs_.get("bin/small", {fill, by_bounds_}),
+        device_.recorder().dispatch(fill ? "bin/fill" : "bin/count", programs_.get("bin/small", {fill, by_bounds_, apart()}),
                                     bindings({{"rects", &rects_, Texel::rg32_uint, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
                                               {"Lists", &lists},
                                               {"Entries", &entries}}),
@@ -161,7 +162,7 @@ private:
                                                 piece.run.first, 0, 0},
                               groups_of(piece.run.count, 64));
         }
-        recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs_.get("bin/large", {fill, by_bounds_}),
+        recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs_.get("bin/large", {fill, by_bounds_, apart()}),
                           bindings({{"blocks", &blocks_, Texel::rg32_uint},
                                     {"rects", &rects_, Texel::rg32_uint},
                                     {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
@@ -170,6 +171,13 @@ private:
                                     {"Entries", &entries}}),
                           shared::BinParams{bins_.grid, 0, chunk.first, chunk.count, 0, chunk_, pass.block_count},
                           groups_of(uint64_t(pass.block_count) * shared::kBlockTiles, 64));
+    }
+
+    bool apart() const { return bins_.part == Part::apart; }
+    // That a cell lists.
+    uint32_t part_of(uint32_t cell) const {
+        const Part part = !apart() ? bins_.part : cell < bins_.grid.cell_count ? Part::moving : Part::still;
+        return static_cast<uint32_t>(part);
     }
 
     // Of so many cells and triangles.
@@ -192,14 +200,16 @@ private:
     std::optional<gpu::Download> blocks_of_chunk_;  // Until passes are made of them.
 };
 
-Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count) {
+Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
+                    Part part) {
     Bins bins;
+    bins.part = part;
     bins.grid = {view.width,
                  view.height,
                  tiles_across(view),
                  0,
                  cell_count,
-                 geometry.segment_count,
+                 part == Part::still ? 1 : geometry.segment_count,
                  geometry.scene->triangle_count,
                  geometry.vertex_stride};
     const uint64_t stride = geometry.vertex_stride;
@@ -271,8 +281,8 @@ void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geomet
 }
 
 Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
-                Listing listing) {
-    Bins bins = project_prisms(device, programs, geometry, view, cell_count);
+                Listing listing, Part part) {
+    Bins bins = project_prisms(device, programs, geometry, view, cell_count, part);
     list_prisms(device, programs, geometry, view, {0, tiles_across(view) * tiles_down(view)}, listing, bins);
     return bins;
 }

@@ -7,10 +7,19 @@
 
 namespace gnomon {
 
+/// Which of a scene's triangles are listed. In a view that moves nothing stands still.
+enum class Part : uint32_t {
+    whole = shared::kWholeScene,
+    still = shared::kStillPart,    ///< What stands still from the first key to the last: in one cell.
+    moving = shared::kMovingPart,  ///< All else.
+    apart,  ///< What moves in its cells; what stands still once, in a list behind those of a tile's cells.
+};
+
 /// The prisms of one view, listed in the tiles of a window. List of tile and cell: entries [offsets[i], offsets[i + 1]), i =
-/// (tile - window.tile_first) * cell_count + cell. An entry is a triangle, with kReversed where its orientation is reversed.
+/// (tile - window.tile_first) * tile_lists() + cell. An entry is a triangle, with kReversed where its orientation is reversed.
 struct Bins {
     shared::ViewGrid grid;
+    Part part = Part::whole;
     Window window;
     gpu::Buffer raster_vertices;  ///< vec4 per key and vertex, in the view's raster space.
     gpu::Buffer offsets;
@@ -18,7 +27,8 @@ struct Bins {
     uint32_t entry_count = 0;
     uint32_t longest = 0;  ///< Entries of the longest list.
 
-    uint32_t item_count() const { return window.tile_count * grid.cell_count; }
+    uint32_t tile_lists() const { return grid.cell_count + (part == Part::apart ? 1 : 0); }
+    uint32_t item_count() const { return window.tile_count * tile_lists(); }
 };
 
 /// In which tiles a prism is listed.
@@ -29,9 +39,10 @@ enum class Listing {
               ///< eye, of all else what does not stand still on the scene's hull, seen from within.
 };
 
-/// Bins without lists: the view's vertices are projected. cell_count: a multiple of the segments.
+/// Bins without lists: the view's vertices are projected. cell_count: a multiple of the segments; of what stands still, 1.
 /// Errors: ErrorKind::out_of_memory.
-Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count);
+Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
+                    Part part = Part::whole);
 
 class Lister;
 
@@ -64,6 +75,6 @@ void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geomet
 
 /// Both, for the whole view.
 Bins bin_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, uint32_t cell_count,
-                Listing listing = Listing::swept);
+                Listing listing = Listing::swept, Part part = Part::whole);
 
 }  // namespace gnomon

@@ -144,6 +144,16 @@ Geometry pose_geometry(gpu::Device& device, Programs& programs, std::shared_ptr<
                               shared::PoseParams{run.first, run.count}, groups_of(run.count, 64));
         }
     }
+    const uint64_t words = groups_of(data.triangle_count, 32);
+    geometry.still = device.allocate("still", (words + 1) * 4);
+    recorder.fill("pose", geometry.still, 0);
+    recorder.dispatch("pose", programs.get("pose/still"),
+                      bindings({{"triangles", &data.triangles, Texel::rgba32_uint},
+                                {"positions", &geometry.positions, Texel::rgba32_float},
+                                {"Still", &geometry.still}}),
+                      shared::BoundsParams{data.triangle_count, geometry.vertex_stride, geometry.segment_count + 1},
+                      groups_of(data.triangle_count, 64));
+    geometry.still_triangles = recorder.download(geometry.still, words * 4, 4);
     return geometry;
 }
 

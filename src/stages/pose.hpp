@@ -37,10 +37,12 @@ struct Geometry {
     std::shared_ptr<const SceneData> scene;
     uint32_t vertex_stride = 0;  ///< vertex_count, rounded up to keep bindings aligned.
     uint32_t segment_count = 0;
-    gpu::Buffer positions;  ///< vec4 per key and vertex, world space.
-    gpu::Buffer normals;    ///< vec4 per key and vertex.
-    Bounds box;             ///< Of all triangles at all keys, where it is asked for.
-    gpu::Buffer closed;     ///< uint per shell, and one for triangles of none: 1 where it counts as closed in this frame.
+    gpu::Buffer positions;          ///< vec4 per key and vertex, world space.
+    gpu::Buffer normals;            ///< vec4 per key and vertex.
+    Bounds box;                     ///< Of all triangles at all keys, where it is asked for.
+    gpu::Buffer still;              ///< A bit per triangle, 32 to a word: it stands still from the first key to the last.
+    gpu::Download still_triangles;  ///< Their number.
+    gpu::Buffer closed;  ///< uint per shell, and one for triangles of none: 1 where it counts as closed in this frame.
 };
 
 /// Vertices [first, first + count).

@@ -53,18 +53,18 @@ void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
 }
 
 void Tracer::record(gpu::Recorder& recorder, const Batch& batch, uint32_t cell_turn, uint32_t list_first) {
-    recorder.dispatch(
-        stage_,
-        programs_.get("sample/trace", {view_.orthographic, straddle_, list_first > 0, sampling_.sliced, programs_.crew()}),
-        bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
-                  {"bin_entries", &bins_.entries, Texel::r32_uint},
-                  {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
-                  {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                  {"Hits", &hits_}}),
-        shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
-                            sampling_.spp, shared::stratum_length(sampling_.spp), sampling_.seed, list_first, cell_turn,
-                            view_.depth_near, view_.depth_far},
-        groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
+    recorder.dispatch(stage_,
+                      programs_.get("sample/trace", {view_.orthographic, straddle_, list_first > 0, sampling_.sliced,
+                                                     programs_.crew(), bins_.part == Part::apart}),
+                      bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
+                                {"bin_entries", &bins_.entries, Texel::r32_uint},
+                                {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
+                                {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                                {"Hits", &hits_}}),
+                      shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first,
+                                          batch.stratum_count, sampling_.spp, shared::stratum_length(sampling_.spp),
+                                          sampling_.seed, list_first, cell_turn, view_.depth_near, view_.depth_far},
+                      groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
 }
 
 }  // namespace gnomon

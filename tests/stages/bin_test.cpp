@@ -22,9 +22,9 @@ protected:
         std::vector<std::vector<uint32_t>> lists;
     };
 
-    Result run(const Soup& soup, uint32_t cells) {
+    Result run(const Soup& soup, uint32_t cells, Part part = Part::whole) {
         const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
-        Result result{bin_prisms(device(), programs(), geometry, soup.view(), cells), {}};
+        Result result{bin_prisms(device(), programs(), geometry, soup.view(), cells, Listing::swept, part), {}};
         result.lists = read_bins(device(), result.bins);
         return result;
     }
@@ -121,6 +121,59 @@ TEST_F(BinTest, OfClosedShellsWhatLooksAwayIsListed) {
         EXPECT_EQ(lists(Listing::casting), expected);
         EXPECT_GT(left_out, 100u);
         EXPECT_GT(away, 100u);
+    }
+}
+
+// Apart from what moves, what stands still is in no cell, but once in the list behind them: where it is listed as a part of its
+// own, and wherever it is listed in any cell.
+TEST_F(BinTest, WhatStandsStillIsListedOnce) {
+    std::mt19937 random(16);
+    for (bool orthographic : {false, true}) {
+        for (const auto& [segments, cells] : std::map<uint32_t, uint32_t>{{1, 4}, {3, 6}}) {
+            Soup soup(segments, 150, 77, orthographic);
+            soup.add_prisms(300, random);
+            soup.hold_every(3);
+            const auto stands = [&](uint32_t entry) {
+                const glm::uvec3& t = soup.triangles[entry & ~shared::kReversed];
+                return std::all_of(soup.keys.begin(), soup.keys.end(), [&](const std::vector<glm::vec4>& places) {
+                    return places[t.x] == soup.keys[0][t.x] && places[t.y] == soup.keys[0][t.y] &&
+                           places[t.z] == soup.keys[0][t.z];
+                });
+            };
+            const auto sorted = [&](uint32_t cell_count, Part part) {
+                std::vector<std::set<uint32_t>> sets;
+                size_t entries = 0;
+                for (const auto& list : run(soup, cell_count, part).lists) {
+                    sets.emplace_back(list.begin(), list.end());
+                    entries += list.size() - sets.back().size();
+                }
+                EXPECT_EQ(entries, 0u) << "entries listed twice";
+                return sets;
+            };
+            const auto whole = sorted(cells, Part::whole), apart = sorted(cells, Part::apart),
+                       moving = sorted(cells, Part::moving), still = sorted(1, Part::still);
+            ASSERT_EQ(apart.size(), whole.size() / cells * (cells + 1));
+            uint64_t missing = 0, wrong = 0, found = 0, more = 0;
+            for (size_t tile = 0; tile < still.size(); ++tile) {
+                const std::set<uint32_t>& once = apart[tile * (cells + 1) + cells];
+                EXPECT_EQ(once, still[tile]);
+                std::set<uint32_t> seen;
+                for (uint32_t cell = 0; cell < cells; ++cell) {
+                    EXPECT_EQ(apart[tile * (cells + 1) + cell], moving[tile * cells + cell]);
+                    std::set<uint32_t> rest;
+                    for (const uint32_t entry : whole[tile * cells + cell]) (stands(entry) ? seen : rest).insert(entry);
+                    EXPECT_EQ(apart[tile * (cells + 1) + cell], rest);
+                }
+                for (const uint32_t entry : seen) missing += once.count(entry) == 0;
+                for (const uint32_t entry : once) wrong += !stands(entry);
+                found += once.size();
+                more += once.size() - seen.size();
+            }
+            EXPECT_EQ(missing, 0u) << "of " << found;
+            EXPECT_EQ(wrong, 0u);
+            EXPECT_GT(found, 100u);
+            EXPECT_LT(more * 20, found) << "are listed for rounding";
+        }
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gnomon/error.hpp>
 #include <limits>
+#include <random>
 
 #include "oracle/posed.hpp"
 #include "stage_test.hpp"
@@ -45,6 +46,44 @@ protected:
 TEST_F(PoseTest, OwnScenes) {
     for (const char* name : {"figure", "random-cubes", "tube"}) {
         expect_same_bits(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / (std::string(name) + ".gltf"));
+    }
+}
+
+// A bit for each triangle, around the size of a word and of a workgroup: still are those that move at no key.
+TEST_F(PoseTest, WhatStandsStill) {
+    for (const uint32_t count : {1u, 31u, 32u, 33u, 64u, 65u, 1000u}) {
+        for (const size_t keys : {size_t{2}, size_t{4}}) {
+            Scene scene;
+            scene.morphs.emplace_back();
+            scene.materials.emplace_back();
+            // Joint 0 stands still, joint 1 moves by an ulp, at the last key alone.
+            for (uint32_t joint = 0; joint < 2; ++joint) {
+                Vertex vertex;
+                vertex.position = {1.0f, 2.0f, 3.0f};
+                vertex.influence_first = joint;
+                vertex.influence_count = 1;
+                scene.influences.push_back({joint, 1.0f});
+                scene.vertices.push_back(vertex);
+            }
+            std::mt19937 random(count);
+            std::vector<bool> expected;
+            for (uint32_t i = 0; i < count; ++i) {
+                const auto moving = static_cast<uint32_t>(random() % 5);  // Which vertex; of 3 and 4 none.
+                scene.triangles.push_back({{moving == 0 ? 1u : 0u, moving == 1 ? 1u : 0u, moving == 2 ? 1u : 0u}, 0});
+                expected.push_back(moving > 2);
+            }
+            std::vector<Pose> poses(keys);
+            for (Pose& pose : poses)
+                pose.palette = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+            poses.back().palette[4].w = 2.4e-7f;
+            const Geometry geometry = pose_geometry(device(), programs(), scene, poses);
+            const std::vector<uint32_t> words = gpu::download_vector<uint32_t>(device(), geometry.still, (count + 31) / 32);
+            std::vector<bool> found;
+            for (uint32_t i = 0; i < count; ++i) found.push_back((words[i / 32] >> i % 32 & 1u) != 0);
+            EXPECT_EQ(found, expected);
+            EXPECT_EQ(gpu::values_of<uint32_t>(device(), geometry.still_triangles)[0],
+                      std::count(expected.begin(), expected.end(), true));
+        }
     }
 }
 

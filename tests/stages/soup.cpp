@@ -40,6 +40,14 @@ void Soup::add_prisms(uint32_t count, std::mt19937& random) {
     }
 }
 
+void Soup::hold_every(uint32_t n) {
+    for (size_t i = 0; i < triangles.size(); i += n) {
+        for (auto& places : keys) {
+            for (int k = 0; k < 3; ++k) places[triangles[i][k]] = keys[0][triangles[i][k]];
+        }
+    }
+}
+
 oracle::MovingTriangle Soup::triangle(uint32_t index, uint32_t segment) const {
     oracle::MovingTriangle result;
     for (size_t i = 0; i < 3; ++i) {

@@ -29,6 +29,9 @@ struct Soup {
     /// `count` prisms, of all kinds in turn, over random texels of the image.
     void add_prisms(uint32_t count, std::mt19937& random);
 
+    /// Every n-th triangle stands still.
+    void hold_every(uint32_t n);
+
     /// As the oracles want it, rounded as the keys are.
     oracle::MovingTriangle triangle(uint32_t index, uint32_t segment) const;
     std::vector<oracle::MovingTriangle> all_triangles(uint32_t segment) const;

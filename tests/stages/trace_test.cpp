@@ -57,6 +57,26 @@ TEST_F(TraceTest, EquallyNearTheLowerTriangleWins) {
     }
 }
 
+// What stands still in a list of its own: whether a stratum lies in one cell or in several, and where both lists are long.
+TEST_F(TraceTest, WhatStandsStillApart) {
+    std::mt19937 random(26);
+    for (bool orthographic : {false, true}) {
+        for (const auto& [segments, cells, spp] : {std::array{1u, 8u, 8u}, {1u, 4u, 7u}, {3u, 6u, 6u}, {2u, 4u, 3u}}) {
+            SCOPED_TRACE(testing::Message() << segments << " segments, " << cells << " cells, " << spp << " samples");
+            Soup soup(segments, 40, 24, orthographic);
+            soup.add_prisms(200, random);
+            soup.hold_every(2);
+            Sampling sampling{spp, 3, cells, 1u << 20, Part::apart};
+            expect_same(run(soup, sampling), trace_in_float(soup, sampling));
+        }
+        Soup crowd(1, 8, 8, orthographic);
+        crowd.add_prisms(30'000, random);
+        crowd.hold_every(3);
+        Sampling sampling{2, 1, 2, 1u << 20, Part::apart};
+        expect_same(run(crowd, sampling), trace_in_float(crowd, sampling));
+    }
+}
+
 TEST_F(TraceTest, BatchesDoNotMatter) {
     std::mt19937 random(23);
     Soup soup(3, 50, 30, false);

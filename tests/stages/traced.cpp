@@ -35,7 +35,7 @@ void for_each_sample(const Soup& soup, const Sampling& sampling, Visit visit) {
 std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup& soup, const Sampling& sampling) {
     const Geometry geometry = pose_geometry(device, programs, soup.scene(), soup.poses());
     const View view = soup.view();
-    const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells);
+    const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells, Listing::swept, sampling.part);
     const gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(soup.scene(), soup.poses()));
     Sampler sampler(
         device, programs, geometry, view, bins, lights,

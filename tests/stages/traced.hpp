@@ -13,6 +13,7 @@ struct Sampling {
     uint32_t seed = 5;
     uint32_t cells = 1;              ///< Of the camera's lists; a multiple of the segments.
     uint64_t most_slots = 1u << 20;  ///< Of one batch.
+    Part part = Part::whole;         ///< Or apart.
 };
 
 /// Index (y * width + x) * spp + s: a triangle, kReversed if seen in its negative orientation, or kNone.

@@ -106,6 +106,10 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
         .add_flag("!--no-closed-meshes", o.settings.closed_meshes,
                   "List both sides of closed meshes, and all that shadows nothing; the picture is the same but for rounding")
         ->group(picture);
+    command
+        .add_flag("!--no-static-once", o.settings.static_once,
+                  "List what stands still in each cell of time, not once; the picture is the same")
+        ->group(picture);
 
     add_parameters(command, o.settings.parameters);
 

@@ -34,6 +34,7 @@ TEST(RenderOptions, DefaultsAreThoseOfTheContract) {
     EXPECT_EQ(options.settings.method, "exact");
     EXPECT_EQ(options.settings.memory_budget, 0u);
     EXPECT_TRUE(options.settings.closed_meshes);
+    EXPECT_TRUE(options.settings.static_once);
     EXPECT_EQ(options.shutter.open, 0.0);
     EXPECT_EQ(options.shutter.close, 0.0208333);
     EXPECT_EQ(options.fps, 24.0);
@@ -74,6 +75,7 @@ TEST(RenderOptions, EveryOptionArrives) {
                                          "--ground",
                                          "-2",
                                          "--no-closed-meshes",
+                                         "--no-static-once",
                                          "--validate"});
     EXPECT_EQ(options.exr, "a.exr");
     EXPECT_EQ(options.png, "a.png");
@@ -99,6 +101,7 @@ TEST(RenderOptions, EveryOptionArrives) {
     EXPECT_EQ(options.ground->height, -2.0f);
     EXPECT_TRUE(options.validate);
     EXPECT_FALSE(options.settings.closed_meshes);
+    EXPECT_FALSE(options.settings.static_once);
 }
 
 TEST(RenderOptions, StillIsOneFrame) {

@@ -57,7 +57,7 @@ TEST(Report, EverySettingIsThere) {
                             .memory_budget = 7,
                             .keep_samples = true};
     EXPECT_EQ(io::settings_json(settings), Json::parse(R"({"width": 1, "height": 2, "spp": 3, "seed": 4, "camera": 5,
-        "shadow_res": 6, "method": "m", "layout": "l", "raster": "r", "pages": "auto", "closed_meshes": true,
+        "shadow_res": 6, "method": "m", "layout": "l", "raster": "r", "pages": "auto", "closed_meshes": true, "static_once": true,
         "memory_budget": 7})"));
 }
 
