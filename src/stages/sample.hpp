@@ -23,7 +23,7 @@ struct LightSide {
 struct ShadowCounts {
     uint64_t visited = 0;  ///< Ranges looked at.
     uint64_t tested = 0;   ///< Ranges whose triangle was tested.
-    uint64_t cast = 0;     ///< Shadow tests: hits, over the lights that could reach them.
+    uint64_t cast = 0;     ///< Shadow tests: hits in a face's view. Where what stands still has its own, a hit may be in both.
 };
 
 struct SamplerSettings {
