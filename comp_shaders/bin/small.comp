@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Purpose: list small prisms in the tiles of their bounds, for one cell. Count, or fill after the scan.
+// Purpose: list small prisms in the tiles of their bounds, for one cell, in the orientations whose turn it is. Count, or fill after the scan.
 // Reads:   rects of the cell
 // Writes:  Lists (count: entries per list; fill: the next free place of each list), Entries (fill)
 // Grid:    one invocation per triangle
@@ -22,6 +22,7 @@ void main() {
     bool inside = i < params.triangle_count;
     uint triangle = params.triangle_first + i;
     Rect rect = unpack_rect(fetch_rects(params.rect_first + min(i, params.triangle_count - 1u)));
+    rect.seen &= params.seen;
     bool listed = inside && rect.seen != 0u && !rect.large;
     uint copies = rect.seen == 3u && !kByBounds ? 2u : 1u;
     uint first_entry = triangle | (rect.seen == 2u && !kByBounds ? kReversed : 0u);

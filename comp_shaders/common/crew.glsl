@@ -25,3 +25,12 @@ uint rounds_of(uint own) { return subgroupMax(own); }
 
 // The invocation's number in a workgroup of whole subgroups, by which a crew's are neighbours.
 uint crewed_invocation() { return gl_SubgroupID * gl_SubgroupSize + gl_SubgroupInvocationID; }
+
+// The largest value of the crew, for all of it.
+float crew_max(Crew crew, float value) {
+    [[unroll]] for (uint apart = 1u; apart < 8u; apart *= 2u) {
+        float other = subgroupShuffle(value, apart < crew.size ? gl_SubgroupInvocationID ^ apart : gl_SubgroupInvocationID);
+        value = max(value, other);
+    }
+    return value;
+}

@@ -11,6 +11,8 @@ const uint kSeenNegative = 2u;
 // How the eye sees a triangle that looks away from it, when its vertices run counterclockwise around its outer side, as in
 // glTF: y is down in raster space.
 const uint kSeenAway = kSeenPositive;
+const uint kSeenFacing = kSeenNegative;
+const uint kSeenAny = kSeenPositive | kSeenNegative;
 
 GN_FN float det3(vec3 a, vec3 b, vec3 c) {
     return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);

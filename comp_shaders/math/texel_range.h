@@ -59,6 +59,14 @@ GN_FN float nearest_depth(CellTriangle c, bool orthographic) {
     return orthographic ? flat_depth : deep;
 }
 
+// A lower bound of the depths that cover.h computes of it where it covers a point: convex combinations of its vertices' with
+// some 16 roundings.
+GN_FN float nearest_computed_depth(CellTriangle c, bool orthographic) {
+    float depth = nearest_depth(c, orthographic);
+    float deepest = max(max_of(abs(c.a0.z), abs(c.a1.z), abs(c.a2.z)), max_of(abs(c.b0.z), abs(c.b1.z), abs(c.b2.z)));
+    return depth - (orthographic ? deepest : abs(depth)) * (16.0f / 16777216.0f);
+}
+
 // A prism's bounds in the image, where it is in front of the eye: raster space, widened by what rounding may move its vertices
 // (math/range.h) and by the motion within time_slack. The bounds of a linear motion are those of its ends, since x / w is
 // monotone in time for w > 0.

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: the nearest triangle at each sample of a view.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices
-// Writes:  Hits (per slot of the batch: the list entry, a triangle and its orientation, or kNone)
-// Grid:    8 invocations per tile and stratum of time: one per column of pixels, its 8 rows in registers; they fetch the list's triangles for each other
+// Writes:  Hits (per slot of the batch: the list entry, a triangle and its orientation, or kNone), TestCount (where kCount: samples times triangles that were
+//          tested, two words)
+// Grid:    8 invocations per tile and stratum of time: one per pixel of a block of 4x2, the 8 blocks in registers; they fetch the list's triangles for each other and,
+//          where lists are long, pass over those that are nowhere nearer than what all samples have found
 // Source:  math/cover.h
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
@@ -15,16 +17,20 @@ layout(constant_id = 2) const bool kContinue = false;  // Go on from the hits of
 layout(constant_id = 3) const bool kSliced = false;    // Samples are slice_points.
 layout(constant_id = 4) const uint kCrew = 8u;
 layout(constant_id = 5) const bool kApart = false;  // What stands still is listed behind a tile's cells.
+layout(constant_id = 6) const bool kPassOver = false;  // Pass over the end of a round that is nowhere nearer.
+layout(constant_id = 7) const bool kCount = false;     // Count tests.
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
 READ_VEC4(3, raster_vertices)
 layout(binding = 4, scalar) buffer Hits { uint hits[]; };
+layout(binding = 5, scalar) buffer TestCount { uint test_count[]; };
 layout(push_constant, scalar) uniform Push { TraceParams params; };
 #include "common/triangle.glsl"
 #include "common/spread.glsl"
 #include "common/batch.glsl"
 #include "common/crew.glsl"
+#include "common/cell.glsl"
 
 MovingTriangle shown(MovingTriangle m, uint from) {
     return MovingTriangle(subgroupShuffle(m.a0, from), subgroupShuffle(m.a1, from), subgroupShuffle(m.a2, from), subgroupShuffle(m.d0, from),
@@ -82,9 +88,9 @@ void main() {
     vec3 at[8];  // x and y in raster space, local time in the segment.
     bool here[8];
     Best best[8];
-    uint x_px = tile_x * kTileSize + lane;
     [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-        uint y_px = tile_y * kTileSize + r;
+        uint x_px = tile_x * kTileSize + slot_column(8u * r + lane);
+        uint y_px = tile_y * kTileSize + slot_row(8u * r + lane);
         vec3 p = view_sample(kSliced, x_px, y_px, stratum, params.stratum_length, params.seed);
         at[r] = vec3(p.x - 0.5 * float(grid.width), p.y - 0.5 * float(grid.height), local_time_of(p.z, segment, grid.segment_count));
         here[r] = inside && x_px < grid.width && y_px < grid.height;
@@ -92,12 +98,22 @@ void main() {
         // Nothing is nearer than what no sample is taken for.
         best[r] = Best(here[r] ? params.depth_far : -3.4e38, kNone);
         if (kContinue) {
-            uint entry = hits[slot + tile_slot(lane, r)];
+            uint entry = hits[slot + 8u * r + lane];
             MovingTriangle m = fetch_moving_triangle(here[r] && entry != kNone ? entry : grid.triangle_count, key_first, grid.vertex_stride);
             test(m, entry, at[r], best[r]);
         }
     }
 
+    // Local times between which the samples lie.
+    vec2 span = vec2(local_time_of(stratum_start(stratum, params.stratum_length), segment, grid.segment_count),
+                     local_time_of(stratum_start(stratum + 1u, params.stratum_length), segment, grid.segment_count));
+    if (kStraddle) {
+        float slack = time_slack(grid.cell_count);
+        vec2 of_cell = cell_span(grid, cell);
+        span = vec2(max(span.x, of_cell.x - slack), min(span.y, of_cell.y + slack));
+    }
+
+    uint tests = 0u;
     uint tile_lists = grid.cell_count + (kApart ? 1u : 0u);
     uint list = (tile - grid.tile_first) * tile_lists;
     uvec2 moving = list_part(list + cell);
@@ -113,6 +129,15 @@ void main() {
         MovingTriangle own_triangle = fetch_moving_triangle(own_entry, key_first, grid.vertex_stride);
         uint from = 0u;
         uint last = min(crew.size, rounds - k);
+        if (kPassOver) {
+            CellTriangle c = cell_triangle(own_triangle.a0, own_triangle.a1, own_triangle.a2, own_triangle.d0, own_triangle.d1, own_triangle.d2, span.x, span.y);
+            float farthest = best[0].depth;
+            [[unroll]] for (uint r = 1u; r < 8u; ++r) farthest = max(farthest, best[r].depth);
+            farthest = crew_max(crew, farthest);
+            bool nearer = own < count && nearest_computed_depth(c, kOrthographic) <= farthest;
+            last = rounds_of(nearer ? crew.place + 1u : 1u);
+        }
+        if (kCount) tests += 8u * last;
         do {
             uint entry = subgroupShuffle(own_entry, crew.first + from);
             MovingTriangle m = shown(own_triangle, crew.first + from);
@@ -125,6 +150,13 @@ void main() {
     // The first dispatch leaves a hit or none for every sample.
     bool first = params.cell_turn == 0u && params.list_first == 0u;
     [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-        if (inside && (first || here[r])) hits[slot + tile_slot(lane, r)] = best[r].entry;
+        if (inside && (first || here[r])) hits[slot + 8u * r + lane] = best[r].entry;
+    }
+    if (kCount) {
+        uint sum = subgroupAdd(inside ? tests : 0u);
+        if (subgroupElect()) {
+            uint before = atomicAdd(test_count[0], sum);
+            if (before + sum < before) atomicAdd(test_count[1], 1u);
+        }
     }
 }

@@ -116,6 +116,7 @@ struct BinParams {
     uint rect_first;   // Where the first triangle's rectangle is among those that are bound.
     uint rect_stride;  // bin/large: rectangles from one cell to the next.
     uint block_count;  // bin/large.
+    uint seen;         // bin/small: orientations whose turn it is.
 };
 
 struct ScanParams {

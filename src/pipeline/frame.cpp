@@ -44,7 +44,7 @@ void list_window(gpu::Device& device, Programs& programs, const Geometry& geomet
         bins.entries = gpu::Buffer();
         device.set_budget(std::min(budget, device.live_bytes() + bytes));
         try {
-            list_prisms(device, programs, geometry, view, windows[w], Listing::swept, bins);
+            list_prisms(device, programs, geometry, view, windows[w], Listing::facing_first, bins);
             device.set_budget(budget);
             return;
         } catch (const Error& error) {
@@ -165,6 +165,7 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
     if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges();
 
     const uint64_t hits = sampler.hit_count();
+    const uint64_t tests = settings.count_ranges ? sampler.test_count() : 0;
     frame.stats = statistics(device);
     shadows.report(frame);
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
@@ -175,6 +176,7 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
     frame.stats.counts["bin_entries.camera"] = camera_entries;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
     frame.stats.counts["hits"] = hits;
+    frame.stats.counts["camera_tests"] = tests;
     // Without the count: a test for each hit and light.
     frame.stats.counts["shadow_tests"] = settings.count_ranges ? sampler.shadow_counts().cast : hits * frame.light_count;
     frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;

@@ -6,6 +6,7 @@
 #include <gnomon/error.hpp>
 #include <optional>
 
+#include "math/orientation.h"
 #include "shared/rect.h"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
@@ -18,6 +19,9 @@ using gpu::Texel;
 // A block's rounds in bin/large.
 constexpr uint32_t kMostTiles = (16384 / shared::kTileSize) * (16384 / shared::kTileSize);
 static_assert(kMostTiles / (shared::kMostBlocks * shared::kBlockTiles) < shared::kMostTurns);
+
+// From so many entries in a list on, in the mean, it pays to put them in order and to pass over some.
+constexpr uint64_t kLongList = 32;
 
 // Rectangles, and blocks, in memory at one time: what they take is seldom more.
 constexpr uint64_t kRectBytes = uint64_t{64} << 20;
@@ -84,8 +88,11 @@ public:
             const Run chunk{first, std::min(chunk_, bins_.grid.triangle_count - first)};
             if (chunk.first != chunk_in_memory_.first) set_up(chunk);
             make_passes();
-            for (uint32_t cell = 0; cell < bins_.tile_lists(); ++cell) list_small(fill, chunk, cell, lists, entries);
+            // Entries get their places about in the order of the dispatches.
+            const bool in_turns = fill && bins_.facing_first;
+            list_small(fill, in_turns ? shared::kSeenFacing : shared::kSeenAny, chunk, lists, entries);
             for (const BlockPass& pass : passes_) list_large(fill, chunk, pass, lists, entries);
+            if (in_turns) list_small(fill, shared::kSeenAway, chunk, lists, entries);
         }
     }
 
@@ -140,13 +147,16 @@ private:
         }
     }
 
-    void list_small(bool fill, const Run& chunk, uint32_t cell, const gpu::Buffer& lists, const gpu::Buffer& entries) const {
-        device_.recorder().dispatch(fill ? "bin/fill" : "bin/count", programs_.get("bin/small", {fill, by_bounds_, apart()}),
-                                    bindings({{"rects", &rects_, Texel::rg32_uint, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
-                                              {"Lists", &lists},
-                                              {"Entries", &entries}}),
-                                    shared::BinParams{bins_.grid, cell, chunk.first, chunk.count, 0, 0, 0},
-                                    groups_of(chunk.count, 64));
+    // seen: the orientations whose turn it is.
+    void list_small(bool fill, uint32_t seen, const Run& chunk, const gpu::Buffer& lists, const gpu::Buffer& entries) const {
+        for (uint32_t cell = 0; cell < bins_.tile_lists(); ++cell) {
+            device_.recorder().dispatch(
+                fill ? "bin/fill" : "bin/count", programs_.get("bin/small", {fill, by_bounds_, apart()}),
+                bindings({{"rects", &rects_, Texel::rg32_uint, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
+                          {"Lists", &lists},
+                          {"Entries", &entries}}),
+                shared::BinParams{bins_.grid, cell, chunk.first, chunk.count, 0, 0, 0, seen}, groups_of(chunk.count, 64));
+        }
     }
 
     void list_large(bool fill, const Run& chunk, const BlockPass& pass, const gpu::Buffer& lists,
@@ -159,7 +169,7 @@ private:
                                         {"Blocks", &blocks_},
                                         {"BlockCount", &block_cursor_}}),
                               shared::BinParams{bins_.grid, piece.cell, chunk.first + piece.run.first, piece.run.count,
-                                                piece.run.first, 0, 0},
+                                                piece.run.first, 0, 0, 0},
                               groups_of(piece.run.count, 64));
         }
         recorder.dispatch(fill ? "bin/fill_large" : "bin/count_large", programs_.get("bin/large", {fill, by_bounds_, apart()}),
@@ -169,7 +179,7 @@ private:
                                     {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                     {"Lists", &lists},
                                     {"Entries", &entries}}),
-                          shared::BinParams{bins_.grid, 0, chunk.first, chunk.count, 0, chunk_, pass.block_count},
+                          shared::BinParams{bins_.grid, 0, chunk.first, chunk.count, 0, chunk_, pass.block_count, 0},
                           groups_of(uint64_t(pass.block_count) * shared::kBlockTiles, 64));
     }
 
@@ -234,7 +244,7 @@ Bins project_prisms(gpu::Device& device, Programs& programs, const Geometry& geo
 
 Binning::Binning(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,
                  Listing listing, Bins& bins)
-    : device_(device), programs_(programs), view_(view), bins_(bins) {
+    : device_(device), programs_(programs), view_(view), listing_(listing), bins_(bins) {
     const gpu::Limits& limits = device.limits();
     bins.window = window;
     bins.grid.tile_first = window.tile_first;
@@ -269,6 +279,7 @@ void Binning::fill() {
     if (bins_.entry_count == shared::kNone) fail_lists(view_, "more than 2^32 prisms");
     if (bins_.entry_count > std::min(limits.max_storage_range / 4, limits.most_elements(4)))
         fail_lists(view_, std::to_string(bins_.entry_count) + " prisms");
+    bins_.facing_first = listing_ == Listing::facing_first && bins_.entry_count >= uint64_t(bins_.item_count()) * kLongList;
     bins_.entries = device_.allocate("bin_entries", uint64_t(bins_.entry_count) * 4);
     if (bins_.entry_count > 0) lister_->run(true, cursors_, bins_.entries);
 }

@@ -26,6 +26,8 @@ struct Bins {
     gpu::Buffer entries;
     uint32_t entry_count = 0;
     uint32_t longest = 0;  ///< Entries of the longest list.
+    /// Small prisms that look away from the eye come last in a list, as far as the device keeps order.
+    bool facing_first = false;
 
     uint32_t tile_lists() const { return grid.cell_count + (part == Part::apart ? 1 : 0); }
     uint32_t item_count() const { return window.tile_count * tile_lists(); }
@@ -33,8 +35,9 @@ struct Bins {
 
 /// In which tiles a prism is listed.
 enum class Listing {
-    swept,    ///< Those that it can touch, in each orientation that it can have there.
-    bounds,   ///< All that its bounds touch, once, not reversed.
+    swept,         ///< Those that it can touch, in each orientation that it can have there.
+    facing_first,  ///< As swept; where lists are long, in the order of Bins::facing_first.
+    bounds,        ///< All that its bounds touch, once, not reversed.
     casting,  ///< As swept, if it may shadow something: of shells that count as closed only while it looks away from the view's
               ///< eye, of all else what does not stand still on the scene's hull, seen from within.
 };
@@ -63,6 +66,7 @@ private:
     gpu::Device& device_;
     Programs& programs_;
     const View& view_;
+    Listing listing_;
     Bins& bins_;
     std::unique_ptr<Lister> lister_;
     gpu::Buffer cursors_;  // First the counts.

@@ -46,7 +46,8 @@ Sampler::Sampler(gpu::Device& device, Programs& programs, const Geometry& geomet
       bins_(bins),
       lights_(lights),
       settings_(settings),
-      tracer_(device, programs, geometry, view, bins, "sample/trace", {settings.spp, settings.seed}, settings.most_slots) {
+      tracer_(device, programs, geometry, view, bins, "sample/trace",
+              {settings.spp, settings.seed, false, settings.count_ranges}, settings.most_slots) {
     const uint64_t most_slots = settings.most_slots;
     const uint32_t planes = lit_planes(settings.light_count, settings.fractional);
     lit_ = device.allocate("lit", most_slots * 4 * planes);
@@ -290,8 +291,13 @@ const gpu::Buffer& Sampler::resolve() {
 }
 
 uint64_t Sampler::hit_count() const {
-    const gpu::Download total = film_hits_ ? *film_hits_ : device_.recorder().download(hit_total_, 0, 8);
-    const std::vector<uint32_t> words = gpu::values_of<uint32_t>(device_, total);
+    return number_of(film_hits_ ? *film_hits_ : device_.recorder().download(hit_total_, 0, 8));
+}
+
+uint64_t Sampler::test_count() const { return number_of(device_.recorder().download(tracer_.test_count(), 0, 8)); }
+
+uint64_t Sampler::number_of(const gpu::Download& low_high) const {
+    const std::vector<uint32_t> words = gpu::values_of<uint32_t>(device_, low_high);
     return uint64_t(words[1]) << 32 | words[0];
 }
 

@@ -67,6 +67,8 @@ public:
     const gpu::Buffer& resolve();
     /// Of all batches. It came with the film, if that was read since it was finished.
     uint64_t hit_count() const;
+    /// Samples times triangles that sample/trace tested, whole tiles; where count_ranges.
+    uint64_t test_count() const;
     /// cast only where they are counted.
     const ShadowCounts& shadow_counts() const { return counts_; }
 
@@ -76,6 +78,7 @@ public:
     std::vector<float> batch_depths() const;
 
 private:
+    uint64_t number_of(const gpu::Download& low_high) const;
     /// What every stage binds that finds a hit in the light's view.
     std::vector<gpu::Binding> hit_bindings(const LightSide& light) const;
     std::vector<gpu::Binding> shell_bindings() const;

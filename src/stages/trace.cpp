@@ -43,7 +43,8 @@ Tracer::Tracer(gpu::Device& device, Programs& programs, const Geometry& geometry
       sampling_(sampling),
       straddle_(sampling.spp % bins.grid.cell_count != 0),
       cell_turns_(straddle_ ? most_cells_of_a_stratum(sampling.spp, bins.grid.cell_count) : 1),
-      hits_(device.allocate("hits", most_slots * 4)) {}
+      hits_(device.allocate("hits", most_slots * 4)),
+      test_count_(gpu::upload_new(device, "test_count", std::vector<uint32_t>(2))) {}
 
 void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
     for (uint32_t turn = 0; turn < cell_turns_; ++turn) {
@@ -53,18 +54,20 @@ void Tracer::record(gpu::Recorder& recorder, const Batch& batch) {
 }
 
 void Tracer::record(gpu::Recorder& recorder, const Batch& batch, uint32_t cell_turn, uint32_t list_first) {
-    recorder.dispatch(stage_,
-                      programs_.get("sample/trace", {view_.orthographic, straddle_, list_first > 0, sampling_.sliced,
-                                                     programs_.crew(), bins_.part == Part::apart}),
-                      bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
-                                {"bin_entries", &bins_.entries, Texel::r32_uint},
-                                {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
-                                {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
-                                {"Hits", &hits_}}),
-                      shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first,
-                                          batch.stratum_count, sampling_.spp, shared::stratum_length(sampling_.spp),
-                                          sampling_.seed, list_first, cell_turn, view_.depth_near, view_.depth_far},
-                      groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
+    recorder.dispatch(
+        stage_,
+        programs_.get("sample/trace", {view_.orthographic, straddle_, list_first > 0, sampling_.sliced, programs_.crew(),
+                                       bins_.part == Part::apart, bins_.facing_first, sampling_.count_tests}),
+        bindings({{"bin_offsets", &bins_.offsets, Texel::r32_uint},
+                  {"bin_entries", &bins_.entries, Texel::r32_uint},
+                  {"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
+                  {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
+                  {"Hits", &hits_},
+                  {"TestCount", &test_count_}}),
+        shared::TraceParams{bins_.grid, batch.tile_first, batch.tile_count, batch.stratum_first, batch.stratum_count,
+                            sampling_.spp, shared::stratum_length(sampling_.spp), sampling_.seed, list_first, cell_turn,
+                            view_.depth_near, view_.depth_far},
+        groups_of(uint64_t(batch.tile_count) * batch.stratum_count, 8));
 }
 
 }  // namespace gnomon

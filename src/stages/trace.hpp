@@ -29,6 +29,7 @@ struct Sampling {
     uint32_t spp = 1;  ///< Samples of a pixel, one in each stratum of time.
     uint32_t seed = 0;
     bool sliced = false;  ///< All pixels in their centres at the same times: slice_point.
+    bool count_tests = false;
 };
 
 class Tracer {
@@ -41,6 +42,8 @@ public:
 
     /// Per slot of the batch: the nearest triangle, with kReversed where its orientation is reversed, or kNone.
     const gpu::Buffer& hits() const { return hits_; }
+    /// 64 bits: samples times triangles that were tested so far, whole tiles, where Sampling::count_tests.
+    const gpu::Buffer& test_count() const { return test_count_; }
     /// A stratum may lie in several cells of time.
     bool straddle() const { return straddle_; }
 
@@ -55,7 +58,7 @@ private:
     Sampling sampling_;
     bool straddle_;
     uint32_t cell_turns_;  ///< Dispatches in which the cells of each stratum are walked, one after the other.
-    gpu::Buffer hits_;
+    gpu::Buffer hits_, test_count_;
 };
 
 }  // namespace gnomon

@@ -89,6 +89,38 @@ TEST_F(BinTest, SmallestImages) {
     }
 }
 
+// The same lists in another order, of small prisms.
+TEST_F(BinTest, WhatFacesTheEyeComesFirst) {
+    std::mt19937 random(17);
+    std::uniform_real_distribution<float> place(-70.0f, 70.0f), corner(-3.0f, 3.0f);
+    Soup soup(1, 150, 77, false);
+    for (int i = 0; i < 5000; ++i) {
+        const glm::vec2 at(place(random), place(random));
+        const auto vertex = [&] { return glm::vec4(at + glm::vec2(corner(random), corner(random)), -1.0f, 1.0f); };
+        soup.add_prism({{vertex(), vertex(), vertex()}, {vertex(), vertex(), vertex()}});
+    }
+    const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
+    const auto lists = [&](Listing listing) {
+        return read_bins(device(), bin_prisms(device(), programs(), geometry, soup.view(), 4, listing));
+    };
+    // Pairs of neighbours in a list, the second of which alone faces the eye.
+    const auto backward = [](const std::vector<std::vector<uint32_t>>& all) {
+        uint64_t pairs = 0;
+        for (const auto& list : all) {
+            for (size_t i = 0; i + 1 < list.size(); ++i)
+                pairs += list[i] < shared::kReversed && list[i + 1] >= shared::kReversed;
+        }
+        return pairs;
+    };
+    std::vector<std::vector<uint32_t>> as_swept = lists(Listing::swept), found = lists(Listing::facing_first);
+    EXPECT_GT(backward(as_swept), 500u);
+    EXPECT_EQ(backward(found), 0u);
+    for (auto* all : {&as_swept, &found}) {
+        for (auto& list : *all) std::sort(list.begin(), list.end());
+    }
+    EXPECT_EQ(found, as_swept);
+}
+
 // Of a shell that counts as closed what looks away from the eye is listed where it is listed anyway, and nothing else; of all
 // others everything. A shell's triangles turn over as they move.
 TEST_F(BinTest, OfClosedShellsWhatLooksAwayIsListed) {

@@ -111,6 +111,37 @@ TEST_F(TraceTest, LongLists) {
     }
 }
 
+// Behind a wall that faces the eye, what looks away is passed over, but for one of each crew's fetches; in front of it nothing
+// is, nor what is as near.
+TEST_F(TraceTest, PassesOverWhatIsHidden) {
+    constexpr uint32_t kSize = 16, kSpp = 4, kSheets = 160;  // So few tiles that all prisms are small.
+    for (bool orthographic : {false, true}) {
+        for (const float depth : {1.5f, 1.0f, 0.5f}) {
+            SCOPED_TRACE(testing::Message() << "orthographic " << orthographic << ", at " << depth << " of the wall's depth");
+            Soup soup(1, kSize, kSize, orthographic);
+            const auto add_sheet = [&](float at, bool facing) {
+                const auto vertex = [&](float x, float y) {
+                    return orthographic ? glm::vec4(x, y, at, 1.0f) : glm::vec4(x * at, y * at, -1.0f, at);
+                };
+                std::array<glm::vec4, 3> key = {vertex(-90, -90), vertex(200, -90), vertex(-90, 200)};
+                if (facing) std::swap(key[1], key[2]);
+                soup.add_prism({key, key});
+            };
+            for (uint32_t i = 0; i < kSheets; ++i) add_sheet(depth, false);
+            add_sheet(1.0f, true);
+            uint64_t tests = 0;
+            const std::vector<uint32_t> found = trace(device(), programs(), soup, {kSpp, 1, 1, 1u << 20}, &tests);
+            EXPECT_THAT(found, testing::Each(depth > 1.0f ? kSheets | shared::kReversed : 0u));
+            const double per_sample = double(tests) / double(found.size());
+            if (depth > 1.0f) {
+                EXPECT_LE(per_sample, kSheets / 2 + 8);
+            } else {
+                EXPECT_GE(per_sample, kSheets + 1);
+            }
+        }
+    }
+}
+
 /// A grid of (columns + 1) * (rows + 1) vertices, two triangles for each of its cells, alternately split.
 void add_grid(Soup& soup, uint32_t columns, uint32_t rows, const std::vector<std::vector<glm::vec4>>& places) {
     std::vector<uint32_t> vertex;

@@ -32,14 +32,18 @@ void for_each_sample(const Soup& soup, const Sampling& sampling, Visit visit) {
 
 }  // namespace
 
-std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup& soup, const Sampling& sampling) {
+std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup& soup, const Sampling& sampling,
+                            uint64_t* tests) {
     const Geometry geometry = pose_geometry(device, programs, soup.scene(), soup.poses());
     const View view = soup.view();
-    const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells, Listing::swept, sampling.part);
+    const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells, Listing::facing_first, sampling.part);
     const gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(soup.scene(), soup.poses()));
-    Sampler sampler(
-        device, programs, geometry, view, bins, lights,
-        {.shadow_stage = "sample/shadow@array", .spp = sampling.spp, .seed = sampling.seed, .most_slots = sampling.most_slots});
+    Sampler sampler(device, programs, geometry, view, bins, lights,
+                    {.shadow_stage = "sample/shadow@array",
+                     .spp = sampling.spp,
+                     .seed = sampling.seed,
+                     .most_slots = sampling.most_slots,
+                     .count_ranges = tests != nullptr});
     std::vector<uint32_t> found(size_t(soup.width) * soup.height * sampling.spp, 0xdeadbeefu);
     uint64_t hits = 0;
     for (const Batch& batch : split_batches(bins.window, sampling.spp, sampling.most_slots, sampling.spp)) {
@@ -57,6 +61,7 @@ std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup&
         hits != found.size() - static_cast<size_t>(std::count(found.begin(), found.end(), shared::kNone))) {
         throw std::logic_error("the queue holds " + std::to_string(sampler.hit_count()) + " hits of " + std::to_string(hits));
     }
+    if (tests != nullptr) *tests = sampler.test_count();
     return found;
 }
 

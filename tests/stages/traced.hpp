@@ -16,8 +16,10 @@ struct Sampling {
     Part part = Part::whole;         ///< Or apart.
 };
 
-/// Index (y * width + x) * spp + s: a triangle, kReversed if seen in its negative orientation, or kNone.
-std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup& soup, const Sampling& sampling);
+/// Index (y * width + x) * spp + s: a triangle, kReversed if seen in its negative orientation, or kNone. tests:
+/// Sampler::test_count.
+std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup& soup, const Sampling& sampling,
+                            uint64_t* tests = nullptr);
 
 /// What the exact test in float finds, one triangle after the other. The same bits as trace on a device that rounds as the host
 /// does.

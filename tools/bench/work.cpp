@@ -8,7 +8,6 @@
 #include <cmath>
 #include <gnomon/error.hpp>
 
-#include "math/sample.h"
 #include "shared/params.h"
 
 namespace gnomon::bench {
@@ -35,17 +34,6 @@ std::optional<double> ratio(double numerator, double denominator) {
 
 }  // namespace
 
-uint64_t list_walks(uint32_t spp, uint32_t cell_count) {
-    if (spp % cell_count == 0) return spp;
-    // As sample/trace goes through them.
-    uint64_t walks = 0;
-    const auto cell_at = [&](uint32_t stratum) {
-        return shared::cell_of(shared::stratum_start(stratum, shared::stratum_length(spp)), cell_count);
-    };
-    for (uint32_t s = 0; s < spp; ++s) walks += cell_at(s + 1) - cell_at(s) + 1;
-    return walks;
-}
-
 double seconds_of(const std::vector<FrameStats::Stage>& stages, const std::vector<std::string>& names) {
     double sum = 0.0;
     for (const FrameStats::Stage& stage : stages) {
@@ -57,19 +45,14 @@ double seconds_of(const std::vector<FrameStats::Stage>& stages, const std::vecto
 Work work_of(const Frame& counted, const std::vector<FrameStats::Stage>& stages, uint32_t threads) {
     const double trace_seconds = seconds_of(stages, {"sample/trace"});
     const double raster_seconds = seconds_of(stages, {"raster/count", "raster/fill"});
-    const double pixels = double(counted.width) * counted.height;
     const auto samples = static_cast<double>(count(counted, "samples"));
-    const auto entries = static_cast<double>(count(counted, "bin_entries.camera"));
     const auto shadow_tests = static_cast<double>(count(counted, "shadow_tests"));
-    const auto spp = static_cast<uint32_t>(samples / pixels);
-    const auto cells = static_cast<uint32_t>(std::stoul(counted.effective.at("camera_cells")));
 
     Work work;
     work.light_entries = sum_over_lights(counted, "bin_entries.");
     work.ranges = sum_over_lights(counted, "ranges.");
-    // A list serves its tile's pixels, spp / cells samples of each; tiles at the image's border count as whole ones.
-    work.tests_per_sample = entries * shared::kTileTexels / cells / pixels;
-    work.traced_tests = entries * shared::kTileTexels * static_cast<double>(list_walks(spp, cells)) / cells;
+    work.traced_tests = static_cast<double>(count(counted, "camera_tests"));
+    work.tests_per_sample = work.traced_tests / samples;
     work.ranges_per_second = ratio(static_cast<double>(work.ranges), raster_seconds);
     work.visited_per_shadow_test = ratio(static_cast<double>(count(counted, "ranges_visited")), shadow_tests);
     work.tested_per_shadow_test = ratio(static_cast<double>(count(counted, "ranges_tested")), shadow_tests);

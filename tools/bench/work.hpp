@@ -36,9 +36,6 @@ inline constexpr double kTraceYardstickNs = 13.0;
 /// Core-nanoseconds for 8 texel-triangle pairs, counted (67) and filled (133): the best shader in a test of formulations.
 inline constexpr double kRasterYardstickNs = 200.0;
 
-/// Lists that the strata of one pixel walk: 1 for each stratum within one cell, more for those that straddle cells.
-uint64_t list_walks(uint32_t spp, uint32_t cell_count);
-
 /// counted: the frame with its counts. stages: seconds, of the frames without counting. threads: of a CPU device; 0: the device
 /// is not a CPU. Errors: ErrorKind::internal for a count that the frame lacks.
 Work work_of(const Frame& counted, const std::vector<FrameStats::Stage>& stages, uint32_t threads);
