@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the Debian 12 packages that building and testing gnomon needs; does nothing where they are there.
+# Installs the packages of Debian 12, Debian 13 or Ubuntu 24.04 that building and testing gnomon needs; does nothing where they are there.
 # Usage: tools/install.sh [--dev]     --dev: clang-format and clang-tidy as well
 set -euo pipefail
 
@@ -12,6 +12,17 @@ packages=(
   libspdlog-dev libcli11-dev
   libgtest-dev libgmock-dev libembree-dev
 )
+formatter=clang-format-14
+
+# What differs between the releases.
+release=$(sed -n "s/^VERSION_CODENAME=//p" /etc/os-release 2> /dev/null || true)
+case "$release" in
+  bookworm) formatter=clang-format ;;
+  trixie)
+    packages+=(libdisplay-info2) # Mesa of trixie-backports, for tools/second_driver.sh.
+    formatter=clang-format       # Not version 14, which trixie does not have.
+    ;;
+esac
 
 fail() {
   echo "install.sh: error: $1" >&2
@@ -20,7 +31,7 @@ fail() {
 
 for argument in "$@"; do
   case "$argument" in
-    --dev) packages+=(clang-format clang-tidy) ;;
+    --dev) packages+=("$formatter" clang-tidy) ;;
     -h | --help) sed -n '3,4s/^# //p' "$0"; exit 0 ;;
     *) fail "unknown option $argument; see --help" ;;
   esac
@@ -48,4 +59,4 @@ apt() {
     -o Acquire::Retries=3 -o APT::Update::Error-Mode=any "$@" >&2
 }
 apt update || fail "apt-get update failed; check the network and the apt sources, or install by hand: ${missing[*]}"
-apt install "${missing[@]}" || fail "apt-get install failed (see above); gnomon is built on Debian 12: ${missing[*]}"
+apt install "${missing[@]}" || fail "apt-get install failed (see above); gnomon is built on Debian 12, Debian 13 and Ubuntu 24.04: ${missing[*]}"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Unpacks lavapipe of bookworm-backports to FOLDER/mesa-VERSION and prints the path of its ICD manifest, for VK_DRIVER_FILES. Installs
+# Unpacks lavapipe of Debian's backports to FOLDER/mesa-VERSION and prints the path of its ICD manifest, for VK_DRIVER_FILES. Installs
 # nothing; what is there is taken as it is.
 # Usage: tools/second_driver.sh [--print] [FOLDER]     FOLDER: build/drivers unless given; --print: only say which is there
 set -euo pipefail
@@ -31,9 +31,13 @@ if [[ -n $manifest ]] && grep --quiet --fixed-strings "\"$(realpath "${manifest%
 fi
 [[ $unpack == yes ]] || fail "no driver in $folder; run tools/second_driver.sh with a network"
 
+read_release() { sed -n "s/^$1=//p" /etc/os-release 2> /dev/null; }
+[[ $(read_release ID) == debian ]] \
+  || fail "only Debian's backports have this driver: unpack a Mesa by hand, and name its ICD by tools/test.sh --driver"
+backports=$(read_release VERSION_CODENAME)-backports
 keys=/usr/share/keyrings/debian-archive-keyring.gpg
 for command in apt-get dpkg-deb; do
-  command -v "$command" > /dev/null || fail "$command not found; only Debian has this driver: unpack a Mesa by hand, and name its ICD by tools/test.sh --driver"
+  command -v "$command" > /dev/null || fail "$command not found; unpack a Mesa by hand, and name its ICD by tools/test.sh --driver"
 done
 [[ -r $keys ]] || fail "$keys not found; install the package debian-archive-keyring"
 
@@ -43,14 +47,14 @@ work=$(mktemp --directory)
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work"
 mkdir -p "$work/lists/partial" "$work/cache/archives/partial"
-echo "deb [signed-by=$keys] http://deb.debian.org/debian bookworm-backports main" > "$work/sources.list"
+echo "deb [signed-by=$keys] http://deb.debian.org/debian $backports main" > "$work/sources.list"
 apt() {
   apt-get --quiet=2 -o Dir::Etc::sourcelist="$work/sources.list" -o Dir::Etc::sourceparts=- -o Dir::State::lists="$work/lists" \
     -o Dir::Cache="$work/cache" -o APT::Sandbox::User=root -o Acquire::Retries=3 -o APT::Update::Error-Mode=any "$@" >&2
 }
-echo "Unpacking mesa-vulkan-drivers of bookworm-backports" >&2
-apt update || fail "cannot read bookworm-backports of deb.debian.org; check the network, or name a driver that you have by tools/test.sh --driver"
-(cd "$work" && apt download mesa-vulkan-drivers/bookworm-backports) || fail "cannot download mesa-vulkan-drivers of bookworm-backports; see above"
+echo "Unpacking mesa-vulkan-drivers of $backports" >&2
+apt update || fail "cannot read $backports of deb.debian.org; check the network, or name a driver that you have by tools/test.sh --driver"
+(cd "$work" && apt download "mesa-vulkan-drivers/$backports") || fail "cannot download mesa-vulkan-drivers of $backports; see above"
 package=$(find "$work" -maxdepth 1 -name '*.deb')
 version=$(dpkg-deb --field "$package" Version)
 version=${version#*:}
@@ -58,9 +62,9 @@ dpkg-deb --extract "$package" "$work/root"
 driver=$(find "$work/root/usr/lib" -name libvulkan_lvp.so)
 [[ -n $driver ]] || fail "mesa-vulkan-drivers $version has no libvulkan_lvp.so"
 
-# It needs what mesa-vulkan-drivers of Debian 12 needs, LLVM 15 among it, so tools/install.sh has installed that.
+# It needs little but what the release's own mesa-vulkan-drivers needs, LLVM among it; tools/install.sh installs all of that.
 lacks=$(ldd -r "$driver" 2>&1 | grep -E 'not found|undefined symbol' || true)
-[[ -z $lacks ]] || fail "lavapipe $version lacks libraries of the system ($(head -n 1 <<< "$lacks" | xargs)); run tools/install.sh on Debian 12"
+[[ -z $lacks ]] || fail "lavapipe $version lacks libraries of the system ($(head -n 1 <<< "$lacks" | xargs)); run tools/install.sh"
 
 target=$folder/mesa-${version%%-*}
 mkdir -p "$target"

@@ -25,10 +25,9 @@ uint64_t checked_range(std::string_view stage, const std::string& name, uint64_t
     return bytes == 0 ? end - offset : bytes;
 }
 
-Buffer::Impl& checked_buffer(std::string_view stage, const Device::Impl& device, const Buffer& buffer,
-                             const std::string& name) {
-    if (!buffer) fail_stage(stage, name + " is an empty buffer");
-    if (buffer.impl()->device.get() != &device) fail_stage(stage, name + " is a buffer of another device");
+Buffer::Impl& checked_buffer(std::string_view stage, const Device::Impl& device, const Buffer& buffer, std::string_view name) {
+    if (!buffer) fail_stage(stage, std::string(name) + " is an empty buffer");
+    if (buffer.impl()->device.get() != &device) fail_stage(stage, std::string(name) + " is a buffer of another device");
     return *buffer.impl();
 }
 

@@ -9,7 +9,7 @@ namespace gnomon::gpu {
 [[noreturn]] void fail_stage(std::string_view stage, const std::string& what);
 
 /// Errors: an empty buffer, another device's.
-Buffer::Impl& checked_buffer(std::string_view stage, const Device::Impl& device, const Buffer& buffer, const std::string& name);
+Buffer::Impl& checked_buffer(std::string_view stage, const Device::Impl& device, const Buffer& buffer, std::string_view name);
 
 /// The bytes of a range that starts at `offset` and ends by `end`; bytes 0 stands for all up to the end.
 /// Errors: past the end, empty, offset not a multiple of `alignment`.

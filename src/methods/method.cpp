@@ -123,13 +123,13 @@ const std::vector<Method>& methods() {
     return all;
 }
 
-const Method& find_method(const std::string& name) {
+const Method& find_method(std::string_view name) {
     std::vector<std::string> known;
     for (const Method& method : methods()) {
         if (method.name == name) return method;
         known.push_back(method.name);
     }
-    throw Error(ErrorKind::usage, "no method '" + name + "'", "--method", "use one of " + join(known));
+    throw Error(ErrorKind::usage, "no method '" + std::string(name) + "'", "--method", "use one of " + join(known));
 }
 
 std::string choose_raster(const Method& method, const std::string& option) {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "layouts/layout.hpp"
@@ -75,7 +76,7 @@ struct Method {
 const std::vector<Method>& methods();
 
 /// Errors: ErrorKind::usage, naming those that exist.
-const Method& find_method(const std::string& name);
+const Method& find_method(std::string_view name);
 
 /// The stage raster/<name> that `option` ("auto" or a name) asks for. Errors: ErrorKind::usage, naming what the method can use.
 std::string choose_raster(const Method& method, const std::string& option);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/view.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

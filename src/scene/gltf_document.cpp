@@ -129,13 +129,23 @@ json parser_input(const json& document, const std::vector<AccessorInfo>& accesso
     return input;
 }
 
+// Callbacks of a file system without files. tinygltf 2.9 has one more than 2.8, and takes none if one is missing.
+template <class Callbacks>
+Callbacks no_files() {
+    Callbacks callbacks{};
+    callbacks.FileExists = [](const std::string&, void*) { return false; };
+    callbacks.ExpandFilePath = [](const std::string& path, void*) { return path; };
+    callbacks.ReadWholeFile = [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; };
+    callbacks.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; };
+    if constexpr (requires { callbacks.GetFileSizeInBytes; })
+        callbacks.GetFileSizeInBytes = [](size_t*, std::string*, const std::string&, void*) { return false; };
+    return callbacks;
+}
+
 tinygltf::Model parse_model(const json& document, const std::vector<AccessorInfo>& accessors, const std::string& name) {
     tinygltf::Model model;
     tinygltf::TinyGLTF parser;
-    parser.SetFsCallbacks({[](const std::string&, void*) { return false; }, [](const std::string& path, void*) { return path; },
-                           [](std::vector<unsigned char>*, std::string*, const std::string&, void*) { return false; },
-                           [](std::string*, const std::string&, const std::vector<unsigned char>&, void*) { return false; },
-                           nullptr});
+    parser.SetFsCallbacks(no_files<tinygltf::FsCallbacks>());
     std::string messages;
     std::string unused;
     bool done = false;

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "shapes.hpp"
+#include "support/paths.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -162,7 +163,7 @@ TEST(Validation, NormalFramesBringNoMessage) {
     ortho.scene.cameras[0] = orthographic(2.0);
     validated().render(ortho.scene, ortho.poses, settings);
     const PosedScene figure =
-        load_posed(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes/figure.gltf");  // Skin, morph-free, texture.
+        load_posed(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes/figure.gltf");  // Skin, morph-free, texture.
     const Frame whole = validated().render(figure.scene, figure.poses, settings);
     settings.memory_budget = whole.stats.peak_bytes * 9 / 10;
     EXPECT_EQ(hash_of(validated().render(figure.scene, figure.poses, settings)), hash_of(whole));

@@ -10,6 +10,7 @@
 #include "methods/method.hpp"
 #include "scenes/scene_makers.hpp"
 #include "shapes.hpp"
+#include "support/paths.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -45,7 +46,7 @@ TEST(Determinism, SameBitsWithKeptSamples) {
 
 std::string hash_of_child(const std::string& environment, const std::string& layout) {
     const std::string command =
-        environment + " '" GNOMON_FRAME_HASH "' '" + small_figure().string() + "' 90 70 16 256 " + layout;
+        environment + " '" + GN_PATH(GNOMON_FRAME_HASH) + "' '" + small_figure().string() + "' 90 70 16 256 " + layout;
     std::FILE* pipe = popen(command.c_str(), "r");
     if (pipe == nullptr) return "popen failed";
     std::string text;

@@ -9,6 +9,7 @@
 
 #include "methods/method.hpp"
 #include "shapes.hpp"
+#include "support/paths.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -217,7 +218,8 @@ TEST(Faces, LightThatAClosedMeshSwallows) {
 
 TEST(Faces, PointLightAmongPillars) {
     for (const uint32_t segments : {1u, 4u}) {
-        PosedScene posed = load_posed(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes/pillars.gltf", {"0", segments});
+        PosedScene posed =
+            load_posed(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes/pillars.gltf", {"0", segments});
         posed.scene.lights[0].kind = LightKind::point;  // It moves up and away, and turns.
         RenderSettings settings = small_settings(160, 120, 4, 512);
         expect_agreement(posed, settings);

@@ -8,6 +8,7 @@
 #include "methods/method.hpp"
 #include "scenes/scene_makers.hpp"
 #include "shapes.hpp"
+#include "support/paths.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -54,7 +55,7 @@ TEST(Pages, GiveTheScenesPictures) {
         for (const uint32_t segments : {1u, 3u}) {
             SCOPED_TRACE(name + std::string(", segments ") + std::to_string(segments));
             const PosedScene posed = load_posed(
-                std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / (std::string(name) + ".gltf"), {"0", segments});
+                std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes" / (std::string(name) + ".gltf"), {"0", segments});
             expect_same(posed, small_settings(160, 120, 7, 512), 2.0);  // Parts of pages have finer texels.
         }
     }

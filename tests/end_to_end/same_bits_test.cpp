@@ -10,6 +10,8 @@
 #include <iostream>
 #include <string>
 
+#include "support/paths.hpp"
+
 namespace gnomon::test {
 namespace {
 
@@ -39,7 +41,7 @@ std::string environment(int bits, const std::string& icd) {
 
 /// What `gnomon devices` says of the one that would be used.
 std::string device(const std::string& environment) {
-    const std::string text = output_of(environment + "'" GNOMON_COMMAND "' devices");
+    const std::string text = output_of(environment + "'" + GN_PATH(GNOMON_COMMAND) + "' devices");
     return text.substr(0, text.find('\n'));
 }
 
@@ -57,7 +59,8 @@ constexpr const char* kLowerLimits[] = {
 
 /// Of a scene at "WIDTH HEIGHT SPP SHADOW_RES LAYOUT [METHOD]".
 std::string frame_hash(const std::string& environment, const std::string& scene, const std::string& settings) {
-    return output_of(environment + "'" GNOMON_FRAME_HASH "' '" GNOMON_SOURCE_DIR "/scenes/" + scene + ".gltf' " + settings);
+    return output_of(environment + "'" + GN_PATH(GNOMON_FRAME_HASH) + "' '" + GN_PATH(GNOMON_SOURCE_DIR) + "/scenes/" + scene +
+                     ".gltf' " + settings);
 }
 
 class SameBits : public testing::TestWithParam<const char*> {

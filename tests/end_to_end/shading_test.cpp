@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "shapes.hpp"
+#include "support/paths.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -298,7 +299,7 @@ TEST(Channels, HaveTheNamesOfTheContract) {
 
 // The whole shading, textures included, against the reference's channels.
 TEST(Channels, AreThoseOfTheReference) {
-    const PosedScene posed = load_posed(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes/figure.gltf");
+    const PosedScene posed = load_posed(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes/figure.gltf");
     const RenderSettings settings = small_settings(120, 68, 8, 512);
     const Frame frame = sampled_frame(posed, settings);
     const Frame truth = reference_frame(posed, settings);

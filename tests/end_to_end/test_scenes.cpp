@@ -8,13 +8,14 @@
 #include <bit>
 
 #include "scenes/scene_makers.hpp"
+#include "support/paths.hpp"
 
 namespace gnomon::test {
 
 namespace fs = std::filesystem;
 
 fs::path made_file(const std::string& name, const std::function<void(const fs::path&)>& make) {
-    const fs::path folder = GNOMON_SCENE_FOLDER;
+    const fs::path folder = GN_PATH(GNOMON_SCENE_FOLDER);
     fs::path path = folder / (name + ".glb");
     if (fs::exists(path)) return path;
     fs::create_directories(folder);

@@ -9,6 +9,7 @@
 
 #include "layouts/layout.hpp"
 #include "methods/method.hpp"
+#include "support/paths.hpp"
 #include "support/two_cubes.hpp"
 #include "unit/io/test_folder.hpp"
 #include "unit/io/throws.hpp"
@@ -32,7 +33,7 @@ protected:
 
     /// A copy of a built-in layout becomes the folder's, under the name "own".
     void copy_layout(const std::string& name) const {
-        const auto source = std::filesystem::path(GNOMON_SOURCE_DIR) / "comp_shaders" / "layouts" / name;
+        const auto source = std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "comp_shaders" / "layouts" / name;
         put_content(folder / "layout.glsl", content_of(source / "layout.glsl"));
         put_content(folder / "layout.json",
                     replaced(content_of(source / "layout.json"), "\"name\": \"" + name + "\"", "\"name\": \"own\""));

@@ -6,6 +6,7 @@
 #include <gnomon/error.hpp>
 
 #include "methods/level_scene.hpp"
+#include "support/paths.hpp"
 #include "support/two_cubes.hpp"
 
 namespace gnomon::test {
@@ -123,7 +124,8 @@ TEST_F(FssmPictureTest, HasLessNoiseThanTimeDependentShadowMaps) {
     settings.height = 54;
     settings.spp = 4;
     for (const char* name : {"two-cubes", "pillars", "figure"}) {
-        const Scene scene = load_scene(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / (std::string(name) + ".gltf"));
+        const Scene scene =
+            load_scene(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes" / (std::string(name) + ".gltf"));
         const std::vector<Pose> poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 1.0 / 48.0, 2);
         std::map<std::string, double> variance;
         for (const char* method : {"tsm", "fssm"}) {

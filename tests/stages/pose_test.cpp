@@ -9,6 +9,7 @@
 #include "oracle/posed.hpp"
 #include "stage_test.hpp"
 #include "support/assets.hpp"
+#include "support/paths.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -45,7 +46,7 @@ protected:
 
 TEST_F(PoseTest, OwnScenes) {
     for (const char* name : {"figure", "random-cubes", "tube"}) {
-        expect_same_bits(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / (std::string(name) + ".gltf"));
+        expect_same_bits(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes" / (std::string(name) + ".gltf"));
     }
 }
 

@@ -2,6 +2,8 @@
 // The trace stage run over a whole image, and what it should have found.
 #include "traced.hpp"
 
+#include <algorithm>
+
 #include "math/cover.h"
 #include "math/sample.h"
 #include "pipeline/light_records.hpp"

@@ -10,12 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.hpp"
+
 namespace gnomon::test {
 
 /// The environment's GNOMON_ASSETS, else the folder beside the source tree. May not exist.
 inline std::filesystem::path assets_folder() {
     const char* folder = std::getenv("GNOMON_ASSETS");
-    return folder != nullptr ? std::filesystem::path(folder) : std::filesystem::path(GNOMON_SOURCE_DIR) / "../shared/assets";
+    return folder != nullptr ? std::filesystem::path(folder)
+                             : std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "../shared/assets";
 }
 
 /// Skips the test, loudly, where there is no such folder.

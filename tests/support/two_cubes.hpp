@@ -6,6 +6,8 @@
 
 #include <gnomon/render.hpp>
 
+#include "support/paths.hpp"
+
 namespace gnomon::test {
 
 /// Base: the fixture's own base. Camera and light are added where the scene has none.
@@ -18,7 +20,7 @@ protected:
     }
 
     TwoCubes(uint32_t width, uint32_t height, uint32_t spp)
-        : scene(load_scene(std::filesystem::path(GNOMON_SOURCE_DIR) / "scenes" / "two-cubes.gltf")) {
+        : scene(load_scene(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes" / "two-cubes.gltf")) {
         poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 0.5, 2);
         if (scene.cameras.empty())
             add_default_camera(scene, poses, bounds_of(scene, poses), static_cast<double>(width) / height);

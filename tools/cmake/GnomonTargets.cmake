@@ -6,7 +6,7 @@ option(GNOMON_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 function(gnomon_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   # -ffp-contract=off: the headers shared with the shaders must give the shaders' bits.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -ffp-contract=off)
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # GCC bug 105651: at -O3 a string literal + std::string is said to overlap itself.
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Wno-restrict>)

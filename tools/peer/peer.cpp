@@ -110,9 +110,7 @@ std::vector<PeerRays> peer_rays() {
     for (const RayOrder order : {RayOrder::pixels, RayOrder::strata}) {
         for (const RayCalls calls : {RayCalls::single, RayCalls::packets_of_8, RayCalls::packets_of_16})
             all.push_back({calls, order});
-#if GNOMON_EMBREE == 3
-        all.push_back({RayCalls::stream, order});
-#endif
+        if (reference::kHasStreams) all.push_back({RayCalls::stream, order});
     }
     return all;
 }

@@ -114,13 +114,6 @@ void occlude_single(RTCScene scene, RayQuery& query, Rays& rays) {
     }
 }
 
-#if GNOMON_EMBREE == 3
-RTCRayNp pointers_to(Rays& rays) {
-    return {rays.org_x, rays.org_y, rays.org_z, rays.tnear, rays.dir_x, rays.dir_y,
-            rays.dir_z, rays.time,  rays.tfar,  rays.mask,  rays.id,    rays.flags};
-}
-#endif
-
 }  // namespace
 
 Rays::Rays() {
@@ -139,14 +132,7 @@ void intersect(RTCScene scene, RayCalls calls, Rays& rays) {
         case RayCalls::packets_of_16:
             return intersect_packets<RTCRayHit16, 16>(scene, query, rays);
         case RayCalls::stream:
-#if GNOMON_EMBREE == 3
-            std::fill_n(rays.geometry, kBatch, RTC_INVALID_GEOMETRY_ID);
-            const RTCRayHitNp stream{
-                pointers_to(rays),
-                {rays.ng_x, rays.ng_y, rays.ng_z, rays.u, rays.v, rays.triangle, rays.geometry, {rays.instance}}};
-            rtcIntersectNp(scene, &query.context, &stream, rays.count);
-#endif
-            return;
+            return reference::intersect_stream(scene, query, rays);
     }
 }
 
@@ -161,11 +147,7 @@ void occluded(RTCScene scene, RayCalls calls, Rays& rays) {
         case RayCalls::packets_of_16:
             return occlude_packets<RTCRay16, 16>(scene, query, rays);
         case RayCalls::stream:
-#if GNOMON_EMBREE == 3
-            const RTCRayNp stream = pointers_to(rays);
-            rtcOccludedNp(scene, &query.context, &stream, rays.count);
-#endif
-            return;
+            return reference::occluded_stream(scene, query, rays);
     }
 }
 

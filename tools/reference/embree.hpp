@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree 3 or 4, whichever was found: what the two call differently.
+// Embree 3 or 4, whichever was found: all that differs between them.
 #pragma once
 
 #if GNOMON_EMBREE == 4
@@ -7,6 +7,10 @@
 #else
 #include <embree3/rtcore.h>
 #endif
+
+#include <algorithm>
+#include <cstdint>
+#include <gnomon/error.hpp>
 
 namespace gnomon::reference {
 
@@ -58,6 +62,18 @@ inline void occluded(const int* valid, RTCScene scene, RayQuery& query, RTCRay16
     rtcOccluded16(valid, scene, &rays, &arguments);
 }
 
+/// Rays in arrays of their own, as many as `rays.count`. Only Embree 3 takes them. Errors: ErrorKind::internal in Embree 4.
+inline constexpr bool kHasStreams = false;
+
+template <class Arrays>
+void intersect_stream(RTCScene, RayQuery&, Arrays&) {
+    throw Error(ErrorKind::internal, "Embree 4 has no streams of rays", "", "ask by packets");
+}
+template <class Arrays>
+void occluded_stream(RTCScene, RayQuery&, Arrays&) {
+    throw Error(ErrorKind::internal, "Embree 4 has no streams of rays", "", "ask by packets");
+}
+
 #else
 
 /// What rays ask with. Filters are handed its address as their context.
@@ -83,6 +99,26 @@ inline void occluded(const int* valid, RTCScene scene, RayQuery& query, RTCRay8&
 }
 inline void occluded(const int* valid, RTCScene scene, RayQuery& query, RTCRay16& rays) {
     rtcOccluded16(valid, scene, &query.context, &rays);
+}
+
+inline constexpr bool kHasStreams = true;
+
+template <class Arrays>
+RTCRayNp pointers_to(Arrays& rays) {
+    return {rays.org_x, rays.org_y, rays.org_z, rays.tnear, rays.dir_x, rays.dir_y,
+            rays.dir_z, rays.time,  rays.tfar,  rays.mask,  rays.id,    rays.flags};
+}
+template <class Arrays>
+void intersect_stream(RTCScene scene, RayQuery& query, Arrays& rays) {
+    std::ranges::fill(rays.geometry, RTC_INVALID_GEOMETRY_ID);
+    const RTCRayHitNp stream{pointers_to(rays),
+                             {rays.ng_x, rays.ng_y, rays.ng_z, rays.u, rays.v, rays.triangle, rays.geometry, {rays.instance}}};
+    rtcIntersectNp(scene, &query.context, &stream, rays.count);
+}
+template <class Arrays>
+void occluded_stream(RTCScene scene, RayQuery& query, Arrays& rays) {
+    const RTCRayNp stream = pointers_to(rays);
+    rtcOccludedNp(scene, &query.context, &stream, rays.count);
 }
 
 #endif

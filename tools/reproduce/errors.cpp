@@ -14,7 +14,7 @@
 namespace gnomon::reproduce {
 namespace {
 
-const std::vector<float>& plane(const Frame& frame, const std::string& name) {
+const std::vector<float>& plane(const Frame& frame, std::string_view name) {
     const auto found =
         std::find_if(frame.channels.begin(), frame.channels.end(), [&](const Channel& c) { return c.name == name; });
     assert(found != frame.channels.end());

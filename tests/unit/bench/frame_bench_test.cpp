@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "support/paths.hpp"
+
 namespace gnomon {
 namespace {
 
@@ -21,7 +23,7 @@ using testing::Not;
 using testing::StartsWith;
 
 int exit_code_of(const std::string& arguments) {
-    const int status = std::system((std::string(GNOMON_FRAME_BENCH) + " " + arguments).c_str());
+    const int status = std::system((GN_PATH(GNOMON_FRAME_BENCH) + " " + arguments).c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 

@@ -8,6 +8,7 @@
 
 #include <stdexcept>
 
+#include "support/paths.hpp"
 #include "test_folder.hpp"
 
 namespace gnomon::test {
@@ -16,7 +17,7 @@ CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<
                          const std::function<void()>& prepare, const std::function<void(int)>& while_running) {
     const std::filesystem::path out = folder / ".stdout";
     const std::filesystem::path err = folder / ".stderr";
-    std::vector<std::string> words = {GNOMON_COMMAND};
+    std::vector<std::string> words = {GN_PATH(GNOMON_COMMAND)};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
