@@ -10,7 +10,7 @@
 #include "methods/dsm.hpp"
 #include "methods/fssm.hpp"
 #include "methods/ranges.hpp"
-#include "pipeline/memory_plan.hpp"
+#include "stages/cells.hpp"
 
 namespace gnomon {
 namespace {

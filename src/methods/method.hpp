@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "layouts/layout.hpp"
-#include "pipeline/view.hpp"
 #include "stages/pages.hpp"
 #include "stages/shadow_map.hpp"
+#include "views/view.hpp"
 
 namespace gnomon {
 

@@ -2,8 +2,8 @@
 // Which shells count as closed in a frame.
 #pragma once
 
-#include "pipeline/view.hpp"
 #include "stages/pose.hpp"
+#include "views/view.hpp"
 
 namespace gnomon {
 

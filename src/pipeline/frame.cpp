@@ -14,9 +14,10 @@
 #include "pipeline/light_records.hpp"
 #include "pipeline/lights.hpp"
 #include "pipeline/memory_plan.hpp"
-#include "pipeline/view.hpp"
 #include "shared/film.h"
+#include "stages/cells.hpp"
 #include "stages/sample.hpp"
+#include "views/view.hpp"
 
 namespace gnomon {
 namespace {

@@ -6,7 +6,7 @@
 #include <gnomon/error.hpp>
 #include <optional>
 
-#include "pipeline/memory_plan.hpp"
+#include "stages/cells.hpp"
 #include "stages/extent.hpp"
 
 namespace gnomon {

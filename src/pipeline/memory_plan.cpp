@@ -7,10 +7,6 @@
 namespace gnomon {
 namespace {
 
-// More cells cut the tests of fast prisms and list slow ones again in each.
-constexpr uint32_t kFewestCells = 8;
-constexpr uint32_t kMostCells = 16;
-constexpr uint32_t kLightCells = 4;
 // Enough samples to keep any device busy. On a CPU the buffers of a batch stay small; elsewhere each batch is a submission that
 // is waited for.
 constexpr uint64_t kBatchSlots = 1u << 20;
@@ -107,26 +103,6 @@ bool lights_still(const std::vector<Pose>& poses) {
     const Pose& first = poses.front();
     return std::all_of(poses.begin(), poses.end(),
                        [&](const Pose& p) { return std::equal(p.lights.begin(), p.lights.end(), first.lights.begin(), same); });
-}
-
-uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still) {
-    if (still) return segments;
-    uint32_t best = 0;
-    for (uint32_t cells = segments; cells <= std::max(kMostCells, segments); cells += segments) {
-        if (spp % cells == 0) best = cells;
-    }
-    if (best >= std::min(kFewestCells, spp)) return best;
-    // No divisor will do: strata straddle the cells' borders.
-    return std::max(1u, kFewestCells / segments) * segments;
-}
-
-uint32_t light_cells(uint32_t segments, bool still) {
-    if (still) return segments;
-    return std::max(1u, kLightCells / segments) * segments;
-}
-
-bool worth_apart(uint64_t still_triangles, uint64_t triangles, uint32_t cells) {
-    return still_triangles * (cells - 1) > triangles;
 }
 
 uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t lit_planes, bool asks,

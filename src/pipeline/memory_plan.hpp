@@ -22,17 +22,6 @@ bool is_still(const std::vector<Pose>& poses);
 /// No light moves or turns between the poses.
 bool lights_still(const std::vector<Pose>& poses);
 
-/// Cells of time in which the camera's prisms are listed: a multiple of the segments; where possible a divisor of spp, so that
-/// each stratum lies in one cell.
-uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);
-
-/// Cells of time of a light's S-buffer whose ranges may be cut where a cell ends.
-uint32_t light_cells(uint32_t segments, bool still);
-
-/// Whether so many triangles that stand still are better listed apart, once and not in each cell: all triangles are then gone
-/// through once more.
-bool worth_apart(uint64_t still_triangles, uint64_t triangles, uint32_t cells);
-
 /// Most slots of one batch, so that its buffers take at most `bytes` and fit into one binding. lit_planes: words that say
 /// which lights reach a slot; asks: hits ask for pages.
 uint64_t batch_slots(const gpu::Device& device, const View& view, uint32_t spp, uint32_t lit_planes, bool asks, uint64_t bytes);

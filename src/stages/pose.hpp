@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "gpu/gpu.hpp"
-#include "pipeline/programs.hpp"
+#include "stages/programs.hpp"
 
 namespace gnomon {
 

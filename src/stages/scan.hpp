@@ -3,7 +3,7 @@
 #pragma once
 
 #include "gpu/gpu.hpp"
-#include "pipeline/programs.hpp"
+#include "stages/programs.hpp"
 
 namespace gnomon {
 

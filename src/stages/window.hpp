@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/view.hpp"
+#include "views/view.hpp"
 
 namespace gnomon {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "end_to_end/moving_triangles.hpp"
-#include "pipeline/view.hpp"
+#include "views/view.hpp"
 
 namespace gnomon::test {
 

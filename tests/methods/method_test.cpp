@@ -9,8 +9,8 @@
 #include <set>
 
 #include "layouts/layout.hpp"
-#include "pipeline/memory_plan.hpp"
-#include "pipeline/programs.hpp"
+#include "stages/cells.hpp"
+#include "stages/programs.hpp"
 
 namespace gnomon::test {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "pipeline/closed.hpp"
 #include "pipeline/light_records.hpp"
-#include "pipeline/view.hpp"
 #include "shared/light.h"
+#include "views/view.hpp"
 
 namespace gnomon::test {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "oracle/prism_kinds.hpp"
-#include "pipeline/view.hpp"
+#include "views/view.hpp"
 
 namespace gnomon::test {
 

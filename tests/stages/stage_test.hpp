@@ -5,7 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "pipeline/programs.hpp"
+#include "stages/programs.hpp"
 
 namespace gnomon::test {
 

@@ -7,7 +7,7 @@
 #include <gnomon/scene.hpp>
 #include <vector>
 
-#include "pipeline/view.hpp"
+#include "views/view.hpp"
 
 namespace gnomon::cli {
 

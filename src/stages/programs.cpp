@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/programs.hpp"
+#include "stages/programs.hpp"
 
 #include <gnomon/error.hpp>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "pipeline/view.hpp"
+#include "views/view.hpp"
 
 #include <algorithm>
 #include <cmath>
