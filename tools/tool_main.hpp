@@ -9,6 +9,7 @@
 #include <string>
 
 #include "parse_error.hpp"
+#include "text/printable.hpp"
 
 namespace gnomon::tools {
 
@@ -23,7 +24,7 @@ struct Tool {
 template <class Options, class Run>
 int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::App&, Options&), Run run) {
     const auto fail = [&](const std::string& message, ErrorKind kind) {
-        std::cerr << tool.name << ": error: " << message << '\n';
+        std::cerr << tool.name << ": error: " << printable(message) << '\n';
         return static_cast<int>(kind);
     };
     try {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gnomon/error.hpp>
-#include <iostream>
 #include <map>
 
 #include "command.hpp"
@@ -117,16 +116,16 @@ io::Json compare_json(const CompareOptions& options, const ImagePair& pair, cons
 void print_table(const std::vector<ChannelError>& errors, bool noise_is_a_bound) {
     size_t width = 7;
     for (const ChannelError& error : errors) width = std::max(width, error.name.size());
-    std::cout << fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>8} {:>12} {:>9} {:>12} {:>11}\n", "channel", width, "bias",
-                             "s.e.", "RMSE", "s.e.", noise_is_a_bound ? "noise <=" : "noise", "max", "PSNR dB", "relative MSE",
-                             "not finite");
+    print_line(fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>8} {:>12} {:>9} {:>12} {:>11}", "channel", width, "bias",
+                           "s.e.", "RMSE", "s.e.", noise_is_a_bound ? "noise <=" : "noise", "max", "PSNR dB", "relative MSE",
+                           "not finite"));
     for (const ChannelError& error : errors) {
         const bool noise_is_known = error.noise && std::isfinite(error.noise->share);
-        std::cout << fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>8} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}\n",
-                                 error.name, width, error.bias, error.bias_standard_error, error.rmse,
-                                 error.rmse_standard_error,
-                                 noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
-                                 error.psnr, error.rel_mse, error.not_finite);
+        print_line(fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>8} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}",
+                               error.name, width, error.bias, error.bias_standard_error, error.rmse,
+                               error.rmse_standard_error,
+                               noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
+                               error.psnr, error.rel_mse, error.not_finite));
     }
 }
 
@@ -176,8 +175,8 @@ int compare_images(const CompareOptions& options) {
     if (options.json != "-") {
         print_table(errors, options.again.empty());
         if (perceived)
-            std::cout << fmt::format("FLIP {:.6g} mean, s.e. {:.2g}, {:.6g} max; SSIM {:.6g}\n", perceived->flip_mean.mean,
-                                     perceived->flip_mean.standard_error, perceived->flip_max, perceived->ssim);
+            print_line(fmt::format("FLIP {:.6g} mean, s.e. {:.2g}, {:.6g} max; SSIM {:.6g}", perceived->flip_mean.mean,
+                                   perceived->flip_mean.standard_error, perceived->flip_max, perceived->ssim));
     }
     return over ? kOverThreshold : kDone;
 }

@@ -2,7 +2,6 @@
 // The command `gnomon`: parses the command line, runs a subcommand, turns exceptions into exit codes.
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <csignal>
 #include <gnomon/error.hpp>
 #include <gnomon/version.hpp>
@@ -47,13 +46,6 @@ int run(int argc, char** argv) {
     return invocation.run();
 }
 
-/// An error is one line, whatever the libraries below put into their messages.
-void report(std::string message) {
-    std::replace_if(
-        message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-    spdlog::error("{}", message);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -66,13 +58,13 @@ int main(int argc, char** argv) {
             throw Error(ErrorKind::input, "cannot write the results", "standard output", "send them to a file with free space");
         return exit_code;
     } catch (const Error& error) {
-        report(error.what());
+        spdlog::error("{}", error.what());
         return error.exit_code();
     } catch (const std::bad_alloc&) {
-        report("out of memory, on the host; render a smaller image or a smaller scene");
+        spdlog::error("out of memory, on the host; render a smaller image or a smaller scene");
         return static_cast<int>(ErrorKind::out_of_memory);
     } catch (const std::exception& error) {
-        report(std::string("internal error: ") + error.what() + ", gnomon " GNOMON_VERSION "; please report it");
+        spdlog::error("internal error: {}, gnomon " GNOMON_VERSION "; please report it", error.what());
         return static_cast<int>(ErrorKind::internal);
     }
 }
