@@ -8,6 +8,7 @@
 #include <new>
 #include <string>
 
+#include "io/atomic_file.hpp"
 #include "parse_error.hpp"
 #include "text/printable.hpp"
 
@@ -38,6 +39,8 @@ int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::
         } catch (const CLI::ParseError& error) {
             return fail(parse_error_text(app, error) + ", command line; see '" + tool.name + " --help'", ErrorKind::usage);
         }
+        refuse_empty_values(app);
+        io::remove_unfinished_files_on_signals();
         run(options);
         return 0;
     } catch (const Error& error) {

@@ -55,11 +55,12 @@ std::vector<Channel> difference_to_show(std::vector<Channel> channels) {
     return shown;
 }
 
-/// Is what was asked for by name worse than the threshold? Nothing for the metrics of single channels.
-std::optional<bool> is_over(const PerceivedError& error, const std::string& metric, double threshold) {
-    if (metric == "flip") return error.flip_mean.mean > threshold;
-    if (metric == "ssim") return error.ssim < threshold;
-    return std::nullopt;
+/// Is what was asked for by name worse than the threshold? Pictures with values that are not finite always are. Never by the
+/// metrics of single channels.
+bool is_over(const PerceivedError& error, const std::string& metric, double threshold) {
+    if (metric == "flip") return error.not_finite > 0 || error.flip_mean.mean > threshold;
+    if (metric == "ssim") return error.not_finite > 0 || error.ssim < threshold;
+    return false;
 }
 
 void write_flip(const std::string& path, const ExrImage& image, const PerceivedError& error) {
@@ -102,6 +103,7 @@ io::Json compare_json(const CompareOptions& options, const ImagePair& pair, cons
         json["flip"] = {{"mean", perceived->flip_mean.mean},
                         {"mean_standard_error", perceived->flip_mean.standard_error},
                         {"max", perceived->flip_max},
+                        {"not_finite", perceived->not_finite},
                         {"pixels_per_degree", io::kPixelsPerDegree},
                         {"exposure", options.exposure}};
         json["ssim"] = perceived->ssim;
@@ -122,8 +124,7 @@ void print_table(const std::vector<ChannelError>& errors, bool noise_is_a_bound)
     for (const ChannelError& error : errors) {
         const bool noise_is_known = error.noise && std::isfinite(error.noise->share);
         print_line(fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>8} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}",
-                               error.name, width, error.bias, error.bias_standard_error, error.rmse,
-                               error.rmse_standard_error,
+                               error.name, width, error.bias, error.bias_standard_error, error.rmse, error.rmse_standard_error,
                                noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
                                error.psnr, error.rel_mse, error.not_finite));
     }
@@ -161,7 +162,7 @@ int compare_images(const CompareOptions& options) {
     if (!perceived && (!options.flip_png.empty() || !kMetrics.contains(options.metric)))
         throw Error(ErrorKind::input, "FLIP and SSIM need the channels R, G and B", pair.paths(),
                     "compare images that have them, and do not leave them out");
-    if (perceived && options.threshold) over = over || is_over(*perceived, options.metric, *options.threshold).value_or(false);
+    if (perceived && options.threshold) over = over || is_over(*perceived, options.metric, *options.threshold);
 
     if (!options.flip_png.empty()) write_flip(options.flip_png, a.image, *perceived);
     if (!options.diff.empty() || !options.diff_png.empty()) {

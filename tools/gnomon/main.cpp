@@ -9,6 +9,7 @@
 #include <new>
 
 #include "command.hpp"
+#include "io/atomic_file.hpp"
 #include "parse_error.hpp"
 
 namespace {
@@ -41,6 +42,7 @@ int run(int argc, char** argv) {
         const std::string name = commands.empty() ? "gnomon" : "gnomon " + commands.front()->get_name();
         throw Error(ErrorKind::usage, gnomon::tools::parse_error_text(app, error), "command line", "see '" + name + " --help'");
     }
+    gnomon::tools::refuse_empty_values(app);
     if (!invocation.run) throw Error(ErrorKind::usage, "no command given", "command line", "see 'gnomon --help'");
     spdlog::set_level(invocation.quiet ? spdlog::level::err : invocation.verbose ? spdlog::level::debug : spdlog::level::info);
     return invocation.run();
@@ -51,6 +53,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     // A file over the limit on sizes is then an error of the write, and its temporary file is removed.
     std::signal(SIGXFSZ, SIG_IGN);
+    gnomon::io::remove_unfinished_files_on_signals();
     gnomon::cli::start_log();
     try {
         const int exit_code = run(argc, argv);
