@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cassert>
 #include <gnomon/error.hpp>
+#include <new>
 
 #include "io/atomic_file.hpp"
 
@@ -106,11 +107,18 @@ ExrImage read_part(Imf::MultiPartInputFile& file, const std::filesystem::path& p
 
     Imf::FrameBuffer frame_buffer;
     for (Channel& channel : image.channels) {
-        channel.values.resize(pixels);
+        channel.values.reserve(pixels);
         frame_buffer.insert(channel.name, slice_of(channel.values.data(), window.min, image.width, image.height));
     }
     part.setFrameBuffer(frame_buffer);
-    part.readPixels(window.min.y, window.max.y);
+    // Memory is taken as the file turns out to hold what its header promises.
+    constexpr int kRows = 256;
+    for (int first = window.min.y; first <= window.max.y; first += kRows) {
+        const int last = std::min(first + kRows - 1, window.max.y);
+        for (Channel& channel : image.channels)
+            channel.values.resize(uint64_t{image.width} * static_cast<uint64_t>(last - window.min.y + 1));
+        part.readPixels(first, last);
+    }
 
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
@@ -167,6 +175,8 @@ ExrImage read_exr(const std::filesystem::path& path) {
         Imf::MultiPartInputFile file(path.c_str());
         return read_part(file, path);
     } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
         std::string reason = error.what();
