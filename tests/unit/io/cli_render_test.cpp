@@ -121,21 +121,6 @@ TEST_F(CliRenderTest, PicturesThatAreNotFiniteAreNotWritten) {
     EXPECT_EQ(names(), Names{"a.gltf"});
 }
 
-TEST_F(CliRenderTest, QuitLeavesNothing) {
-    const auto quit = [](int child) {
-        std::this_thread::sleep_for(std::chrono::seconds(1));
-        kill(child, SIGQUIT);
-    };
-    const auto no_core = [] {
-        const rlimit none{0, 0};
-        setrlimit(RLIMIT_CORE, &none);
-    };
-    const CommandResult result = run_gnomon(
-        folder, {"render", "a.gltf", "-o", "a.exr", "--size=2048x2048", "--spp=4096", "--ground=auto"}, no_core, quit);
-    EXPECT_EQ(result.exit_code, 128 + SIGQUIT) << result.err;
-    EXPECT_EQ(names(), Names{"a.gltf"});
-}
-
 TEST_F(CliRenderTest, FullDiskLeavesNothing) {
     const CommandResult result =
         run_gnomon(folder, {"render", "a.gltf", "-o", "a.exr", "--size=256x256", "--spp=1", "--quiet"}, [] {
