@@ -7,8 +7,7 @@ GN_BEGIN
 
 // What makes a number, not negative, one from 1 to 2; less of one below 1.2e-38, more of one from 8.5e37.
 GN_FN float unit_scale(float largest) {
-    float scale =
-        uintBitsToFloat((254u << 23u) - (min(floatBitsToUint(max(largest, 1.2e-38f)), 253u << 23u) & 0x7f800000u));
+    float scale = uintBitsToFloat((254u << 23u) - (min(floatBitsToUint(max(largest, 1.2e-38f)), 253u << 23u) & 0x7f800000u));
     return scale;
 }
 

@@ -35,7 +35,8 @@ void add_compare(CLI::App& app, Invocation& invocation);
 void add_ranges(CLI::App& app, Invocation& invocation);
 void add_reproduce(CLI::App& app, Invocation& invocation);  ///< Only where the reference is built (GNOMON_HAS_REFERENCE).
 
-/// Messages go to stderr as `gnomon: LEVEL: TEXT`, TEXT as printable() makes it, in colour on a terminal unless NO_COLOR is set.
+/// Messages go to stderr as `gnomon: LEVEL: TEXT`, TEXT as printable() makes it, in colour on a terminal unless NO_COLOR is
+/// set.
 void start_log();
 
 /// Say which device renders, and warn where it is a CPU that was not asked for.
