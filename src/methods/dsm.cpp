@@ -14,10 +14,8 @@ namespace {
 
 using gpu::Texel;
 
-// Bytes of the samples that are clustered at one time, and which part of the light's memory they are at most: as many are for
-// what they hit, and the clusters are there twice while they are put together.
+// Bytes of the samples that are clustered at one time.
 constexpr uint64_t kBatchBytes = 32ull << 20;
-constexpr uint64_t kBatchShare = 8;
 
 class DeepShadowMap final : public ShadowMap {
 public:
@@ -74,8 +72,8 @@ DeepShadowMap::DeepShadowMap(const LightContext& light, const Bins& bins)
     }
     offsets_ = device.allocate("map_offsets", (texels + 1) * 4);
     const uint64_t tile_bytes = uint64_t(sampling_.spp) * shared::kTileTexels * 4;
-    const uint64_t batch_bytes = std::min(
-        {kBatchBytes, light.bytes / kBatchShare, device.limits().max_storage_range, device.limits().most_elements(4) * 4});
+    const uint64_t batch_bytes =
+        std::min({kBatchBytes, device.limits().max_storage_range, device.limits().most_elements(4) * 4});
     const auto step = static_cast<uint32_t>(std::clamp<uint64_t>(batch_bytes / tile_bytes, 1, tile_count_));
     std::vector<Piece> pieces;
     {
