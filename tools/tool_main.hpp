@@ -8,7 +8,9 @@
 #include <new>
 #include <string>
 
+#include "io/atomic_file.hpp"
 #include "parse_error.hpp"
+#include "text/printable.hpp"
 
 namespace gnomon::tools {
 
@@ -23,7 +25,7 @@ struct Tool {
 template <class Options, class Run>
 int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::App&, Options&), Run run) {
     const auto fail = [&](const std::string& message, ErrorKind kind) {
-        std::cerr << tool.name << ": error: " << message << '\n';
+        std::cerr << tool.name << ": error: " << printable(message) << '\n';
         return static_cast<int>(kind);
     };
     try {
@@ -37,6 +39,8 @@ int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::
         } catch (const CLI::ParseError& error) {
             return fail(parse_error_text(app, error) + ", command line; see '" + tool.name + " --help'", ErrorKind::usage);
         }
+        refuse_empty_values(app);
+        io::remove_unfinished_files_on_signals();
         run(options);
         return 0;
     } catch (const Error& error) {

@@ -5,6 +5,7 @@
 #include "shared/light.h"
 #include "math/face.h"
 #include "math/range.h"
+#include "math/unit_size.h"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint kLightView = kPerspectiveView;
@@ -156,7 +157,7 @@ ShadowTest find_hit(uint i) {
 
     // The angle between ray and surface turns the tolerance along the normal into one in depth.
     vec3 place = light_place(p);
-    vec3 n = cross3(light_place(p1 - p0), light_place(p2 - p0));
+    vec3 n = unit_size(cross3(light_place(p1 - p0), light_place(p2 - p0)));
     float slope = kOrthographic ? n.z : dot(n, place);  // Of the surface along the ray, times the length of n.
     test.behind = ((hit & kReversed) != 0u) != (slope < 0.0);
     float along_ray = occlusion_tolerance(h) * sqrt(dot(n, n)) / abs(slope);

@@ -13,6 +13,7 @@
 #ifndef GNOMON_MATH_INTERVAL_H
 #define GNOMON_MATH_INTERVAL_H
 #include "texel_range.h"
+#include "unit_size.h"
 GN_BEGIN
 
 // An edge function at a point during a cell of time.
@@ -48,9 +49,7 @@ struct EdgeTimes {
 };
 
 GN_FN EdgeTimes times_not_negative(EdgeQuadratic e) {
-    // Scaled by a power of two, which is exact, so that squares neither overflow nor vanish.
-    float largest = max_of(abs(e.start), abs(e.mixed), abs(e.end));
-    float scale = uintBitsToFloat((254u << 23u) - (min(floatBitsToUint(max(largest, 1.2e-38f)), 253u << 23u) & 0x7f800000u));
+    float scale = unit_scale(max_of(abs(e.start), abs(e.mixed), abs(e.end)));
     float start = e.start * scale;
     float mixed = e.mixed * scale;
     float end = e.end * scale;

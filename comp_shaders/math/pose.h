@@ -3,6 +3,7 @@
 #ifndef GNOMON_MATH_POSE_H
 #define GNOMON_MATH_POSE_H
 #include "../shared/lang.h"
+#include "unit_size.h"
 GN_BEGIN
 
 // rest + weight * delta, one morph target.
@@ -40,6 +41,7 @@ GN_FN vec3 skin_add_normal(vec3 sum, vec4 row_x, vec4 row_y, vec4 row_z, vec3 n,
                    row_x.x * row_y.y - row_x.y * row_y.x);
     vec3 m =
         vec3(cx.x * n.x + cx.y * n.y + cx.z * n.z, cy.x * n.x + cy.y * n.y + cy.z * n.z, cz.x * n.x + cz.y * n.y + cz.z * n.z);
+    m = unit_size(m);
     float length2 = m.x * m.x + m.y * m.y + m.z * m.z;
     float scale = length2 > 0.0f ? weight / sqrt(length2) : 0.0f;
     return vec3(sum.x + scale * m.x, sum.y + scale * m.y, sum.z + scale * m.z);

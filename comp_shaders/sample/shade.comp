@@ -10,6 +10,7 @@
 #include "shared/film.h"
 #include "shared/light.h"
 #include "math/range.h"
+#include "math/unit_size.h"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kOrthographic = false;
@@ -131,7 +132,7 @@ void main() {
             vec3 w0 = position_at(h.vertex.x, h), w1 = position_at(h.vertex.y, h), w2 = position_at(h.vertex.z, h);
             vec3 position = blend(w0, w1, w2, h.barycentrics);
             // Seen in positive orientation, the normal of the triangle's own winding points away from the camera.
-            vec3 geometric = normalize(cross3(w1 - w0, w2 - w0)) * ((entry & kReversed) != 0u ? 1.0 : -1.0);
+            vec3 geometric = normalize(unit_size(cross3(w1 - w0, w2 - w0))) * ((entry & kReversed) != 0u ? 1.0 : -1.0);
             vec3 normal = geometric;
             if (kSmooth) {
                 vec3 blended = blend(normal_at(h.vertex.x, h), normal_at(h.vertex.y, h), normal_at(h.vertex.z, h), h.barycentrics);

@@ -86,6 +86,32 @@ void keep_drivers() {
     static_cast<void>(kept);
 }
 
+std::string join(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+    return text;
+}
+
+// What the loader says against a driver or a layer that it did not load; it tells nothing by the result: one manifest that it
+// cannot read, whatever others there are, is "out of host memory" to loader 1.3.239.
+std::vector<std::string> loader_errors() {
+    std::vector<std::string> errors;
+    const VkDebugUtilsMessengerCreateInfoEXT listener{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+                                                      .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+                                                      .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT,
+                                                      .pfnUserCallback = collect_message,
+                                                      .pUserData = &errors};
+    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pNext = &listener,
+                                    .pApplicationInfo = &kApplication,
+                                    .enabledExtensionCount = 1,
+                                    .ppEnabledExtensionNames = &extension};
+    VkInstance instance = VK_NULL_HANDLE;
+    if (vkCreateInstance(&info, nullptr, &instance) == VK_SUCCESS) vkDestroyInstance(instance, nullptr);
+    return errors;
+}
+
 // The first queue family with compute, if possible one with timestamps.
 void find_queue(Candidate& candidate) {
     uint32_t count = 0;
@@ -237,12 +263,6 @@ Candidate describe(VkPhysicalDevice physical, uint32_t index) {
     return candidate;
 }
 
-std::string join(const std::vector<std::string>& parts) {
-    std::string text;
-    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
-    return text;
-}
-
 std::string lower(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return text;
@@ -290,6 +310,11 @@ Instance::Instance(bool validate) {
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {  // no driver on this machine
         handle = VK_NULL_HANDLE;
         return;
+    }
+    if (result != VK_SUCCESS) {
+        if (const std::vector<std::string> errors = loader_errors(); !errors.empty())
+            throw Error(ErrorKind::no_device, "cannot create a Vulkan instance: " + join(errors), "Vulkan loader",
+                        "repair or remove what it names, or name the manifest of a driver that works in VK_DRIVER_FILES");
     }
     check(result, "create a Vulkan instance");
     keep_drivers();

@@ -3,9 +3,14 @@
 #include "io/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
+#include <cassert>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <gnomon/error.hpp>
 #include <string>
@@ -35,6 +40,8 @@ std::string hint_for(int error) {
             return "free some space, or name a folder on another disk";
         case EFBIG:
             return "raise the limit on the size of files (ulimit -f), or write a smaller image";
+        case ELOOP:
+            return "name a file, or a link that leads to one";
         case ENAMETOOLONG:
             return "give it a shorter name";
         default:
@@ -42,37 +49,84 @@ std::string hint_for(int error) {
     }
 }
 
-/// The file that a symbolic link leads to, else the path itself.
-fs::path resolve(const fs::path& path) {
+/// The file that a symbolic link leads to, be it there or not, else the path itself.
+fs::path resolve(fs::path path) {
+    constexpr int kMostLinks = 40;  // As Linux follows.
     std::error_code error;
     const fs::path target = fs::canonical(path, error);
-    return error ? path : target;
+    if (!error) return target;
+    const bool leads_to_nothing = fs::status(path, error).type() == fs::file_type::not_found;
+    for (int links = 0; leads_to_nothing && fs::is_symlink(fs::symlink_status(path, error)); ++links) {
+        if (links == kMostLinks) throw_cannot_write(path, std::generic_category().message(ELOOP), hint_for(ELOOP));
+        path = path.parent_path() / fs::read_symlink(path, error);
+    }
+    return path;
+}
+
+// The names of the temporary files that there are, for a signal's handler.
+std::array<std::atomic<const char*>, 64> unfinished{};
+static_assert(std::atomic<const char*>::is_always_lock_free, "read by a signal's handler");
+
+void remember_unfinished(const char* name) {
+    for (std::atomic<const char*>& place : unfinished) {
+        const char* none = nullptr;
+        if (place.compare_exchange_strong(none, name)) return;
+    }
+    assert(false && "more files are being written than there are places for");
+}
+
+void forget_unfinished(const char* name) {
+    for (std::atomic<const char*>& place : unfinished) {
+        const char* known = name;
+        if (place.compare_exchange_strong(known, nullptr)) return;
+    }
+}
+
+// The process ends by the signal once this has returned.
+void remove_unfinished_files(int signal) {
+    for (const std::atomic<const char*>& place : unfinished) {
+        if (const char* name = place) ::unlink(name);
+    }
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
 }
 
 }  // namespace
 
 AtomicFile::AtomicFile(const fs::path& path) : path_(resolve(path)) {
     if (path_.filename().empty()) throw_cannot_write(path_, "the name of the file is missing", "add a name after the folder");
-    std::error_code error;
-    const fs::file_type type = fs::status(path_, error).type();
-    if (type == fs::file_type::none) fail(error.value());
-    if (type == fs::file_type::directory) throw_cannot_write(path_, "it is a folder", "name a file in it");
-    if (type != fs::file_type::not_found && type != fs::file_type::regular)
-        throw_cannot_write(path_, "it is a device or a pipe", "name a regular file");
+    struct stat old {};
+    const bool replaces = ::stat(path_.c_str(), &old) == 0;
+    if (!replaces && errno != ENOENT) fail(errno);
+    if (replaces && S_ISDIR(old.st_mode)) throw_cannot_write(path_, "it is a folder", "name a file in it");
+    if (replaces && !S_ISREG(old.st_mode)) throw_cannot_write(path_, "it is a device or a pipe", "name a regular file");
+    const mode_t mode = replaces ? old.st_mode & 0777u : 0666u;
 
     // The name is short, whatever the target's, so that it is never too long; O_EXCL settles who owns it.
     const std::string stem = ".gnomon-" + std::to_string(::getpid()) + "-";
     for (int number = 0; descriptor_ < 0; ++number) {
         temporary_ = path_.parent_path() / (stem + std::to_string(number) + ".tmp");
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ < 0 && errno != EEXIST) fail(errno);
+        remember_unfinished(temporary_.c_str());
+        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+        const int error = errno;
+        if (descriptor_ < 0) forget_unfinished(temporary_.c_str());
+        if (descriptor_ < 0 && error != EEXIST) fail(error);
+    }
+    if (replaces && ::fchmod(descriptor_, mode) != 0) {
+        const int error = errno;
+        remove();
+        fail(error);
     }
 }
 
 AtomicFile::~AtomicFile() {
-    if (descriptor_ < 0) return;
+    if (descriptor_ >= 0) remove();
+}
+
+void AtomicFile::remove() {
     ::close(descriptor_);
     ::unlink(temporary_.c_str());
+    forget_unfinished(temporary_.c_str());
 }
 
 void AtomicFile::write(std::span<const std::byte> data) {
@@ -89,6 +143,7 @@ void AtomicFile::commit() {
     if (error_ != 0) fail(error_);
     if (::fsync(descriptor_) != 0) fail(errno);
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(errno);
+    forget_unfinished(temporary_.c_str());
     ::close(descriptor_);
     descriptor_ = -1;
 }
@@ -96,6 +151,18 @@ void AtomicFile::commit() {
 void AtomicFile::fail(int error) {
     error_ = error;
     throw_cannot_write(path_, std::generic_category().message(error), hint_for(error));
+}
+
+void remove_unfinished_files_on_signals() {
+    for (const int signal :
+         {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGALRM, SIGTERM, SIGXCPU, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2}) {
+        struct sigaction action {};
+        sigaction(signal, nullptr, &action);
+        if (action.sa_handler != SIG_DFL) continue;
+        action.sa_handler = remove_unfinished_files;
+        action.sa_flags = SA_RESTART;
+        sigaction(signal, &action, nullptr);
+    }
 }
 
 void check_writable(const fs::path& path) { const AtomicFile probe(path); }

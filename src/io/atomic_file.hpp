@@ -11,9 +11,10 @@
 namespace gnomon::io {
 
 /// A file that is written under a temporary name in the folder of `path` and takes its own name in commit(). Without a commit
-/// nothing is left behind, and what was there under `path` before stays as it was. A symbolic link is followed, not replaced.
-/// Errors, of all members: ErrorKind::input with the system's reason: no such folder, not writable, no space left, `path` is
-/// a folder or a device.
+/// nothing is left behind, and what was there under `path` before stays as it was. A file that replaces another has its mode.
+/// A symbolic link is followed, not replaced, as by whatever opens a file to write: where it leads to nothing yet, that is
+/// made. Errors, of all members: ErrorKind::input with the system's reason: no such folder, not writable, no space left, `path`
+/// is a folder or a device.
 class AtomicFile {
 public:
     explicit AtomicFile(const std::filesystem::path& path);
@@ -31,6 +32,7 @@ public:
 
 private:
     [[noreturn]] void fail(int error);
+    void remove();
 
     std::filesystem::path path_;
     std::filesystem::path temporary_;
@@ -38,6 +40,10 @@ private:
     int error_ = 0;  // Of the first write that failed: a caller in between may have swallowed the exception.
     uint64_t position_ = 0;
 };
+
+/// From now on signals that end the process by default, as SIGINT, SIGQUIT or SIGXCPU, remove the temporary files first. Those
+/// that are ignored stay so.
+void remove_unfinished_files_on_signals();
 
 /// Throws the error that writing `path` would end in, as far as that can be known before. Leaves no file behind.
 void check_writable(const std::filesystem::path& path);

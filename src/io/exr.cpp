@@ -3,6 +3,7 @@
 #include "io/exr.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cassert>
 #include <gnomon/error.hpp>
+#include <new>
 
 #include "io/atomic_file.hpp"
 
@@ -22,9 +24,28 @@ namespace gnomon::io {
 
 namespace {
 
-// No compression of OpenEXR packs more tightly than this, so a header that promises more pixels than the file could hold is
-// damaged. The tightest is DWA on a constant image: one 16-bit value for 8x8 pixels, then deflate with at most 1032 to 1.
-constexpr uint64_t kMaxCompression = 64 * 1032;
+// The largest pictures that gnomon makes, along a side; and most bytes of one that is read.
+constexpr int kMostSide_px = 16384;
+constexpr uint64_t kMostBytes = uint64_t{4} << 30;
+
+// Bytes of pixels that a byte of the file can hold at most, so that a header which promises more is damaged. Deflate makes at
+// most 1032 of one; before it DWA makes one 16-bit value of 8x8 pixels. PIZ has runs of up to 256 values in a code.
+uint64_t most_compression(Imf::Compression compression) {
+    constexpr uint64_t kDeflate = 1032;
+    switch (compression) {
+        case Imf::NO_COMPRESSION:
+            return 1;
+        case Imf::RLE_COMPRESSION:
+            return 128;
+        case Imf::ZIPS_COMPRESSION:
+        case Imf::ZIP_COMPRESSION:
+            return kDeflate;
+        case Imf::PXR24_COMPRESSION:  // Of floats 24 bits are kept.
+            return kDeflate * 4 / 3;
+        default:
+            return kDeflate * 64;
+    }
+}
 
 class OutputStream : public Imf::OStream {
 public:
@@ -49,6 +70,13 @@ Imf::Slice slice_of(float* values, const Imath::V2i& origin, uint32_t width, uin
     throw Error(ErrorKind::input, "cannot read the image: " + reason, path.string(), hint);
 }
 
+uint64_t bytes_of_pixel(const Imf::ChannelList& channels) {
+    uint64_t bytes = 0;
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel)
+        bytes += channel.channel().type == Imf::HALF ? 2 : 4;
+    return bytes;
+}
+
 ExrImage read_part(Imf::MultiPartInputFile& file, const std::filesystem::path& path) {
     const std::string hint = "convert it to a flat OpenEXR image of one part";
     if (file.parts() != 1) throw_cannot_read(path, "it has " + std::to_string(file.parts()) + " parts", hint);
@@ -66,18 +94,31 @@ ExrImage read_part(Imf::MultiPartInputFile& file, const std::filesystem::path& p
             throw_cannot_read(path, std::string("its channel ") + channel.name() + " is subsampled", hint);
         image.channels.push_back({channel.name(), {}});
     }
-    const uint64_t file_bytes = std::filesystem::file_size(path);
-    if (pixels > file_bytes * kMaxCompression || pixels * image.channels.size() > file_bytes * kMaxCompression)
-        throw_cannot_read(path, "its header promises more pixels than the file can hold", "make it again: it is damaged");
+    Imf::InputPart part(file, 0);
+    const uint64_t file_bytes = std::filesystem::file_size(path), pixel_bytes = bytes_of_pixel(header.channels());
+    const bool too_small = pixels * pixel_bytes > file_bytes * most_compression(header.compression());
+    if (too_small || !part.isComplete())
+        throw_cannot_read(path, "its header promises more pixels than the file holds", "make it again: it is damaged");
+    const uint64_t bytes = pixels * image.channels.size() * sizeof(float);
+    if (bytes > kMostBytes)
+        throw_cannot_read(path,
+                          "it takes " + std::to_string(bytes >> 20) + " MiB, more than " + std::to_string(kMostBytes >> 20),
+                          "leave out channels, or cut it into parts");
 
     Imf::FrameBuffer frame_buffer;
     for (Channel& channel : image.channels) {
-        channel.values.resize(pixels);
+        channel.values.reserve(pixels);
         frame_buffer.insert(channel.name, slice_of(channel.values.data(), window.min, image.width, image.height));
     }
-    Imf::InputPart part(file, 0);
     part.setFrameBuffer(frame_buffer);
-    part.readPixels(window.min.y, window.max.y);
+    // Memory is taken as the file turns out to hold what its header promises.
+    constexpr int kRows = 256;
+    for (int first = window.min.y; first <= window.max.y; first += kRows) {
+        const int last = std::min(first + kRows - 1, window.max.y);
+        for (Channel& channel : image.channels)
+            channel.values.resize(uint64_t{image.width} * static_cast<uint64_t>(last - window.min.y + 1));
+        part.readPixels(first, last);
+    }
 
     for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
@@ -128,10 +169,14 @@ ExrImage read_exr(const std::filesystem::path& path) {
     if (!std::filesystem::exists(path, status_error)) throw_cannot_read(path, "there is no such file", "check its name");
     if (!std::filesystem::is_regular_file(path, status_error))
         throw_cannot_read(path, "it is not a regular file", "name an OpenEXR file");
+    Imf::Header::setMaxImageSize(kMostSide_px, kMostSide_px);
+    Imf::Header::setMaxTileSize(kMostSide_px, kMostSide_px);
     try {
         Imf::MultiPartInputFile file(path.c_str());
         return read_part(file, path);
     } catch (const Error&) {
+        throw;
+    } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
         std::string reason = error.what();

@@ -28,7 +28,8 @@ void write_exr(const std::filesystem::path& path, uint32_t width, uint32_t heigh
                const std::map<std::string, std::string>& attributes);
 
 /// Read an image of one part, scanlines or tiles; half and integer channels become float.
-/// Errors: ErrorKind::input where the file is missing, damaged, or has deep pixels, several parts or subsampled channels.
+/// Errors: ErrorKind::input where the file is missing, damaged, or has deep pixels, several parts or subsampled channels, is
+/// more than 16384 pixels wide or high, or takes more than 4 GiB. The header is checked before memory is taken.
 ExrImage read_exr(const std::filesystem::path& path);
 
 }  // namespace gnomon::io

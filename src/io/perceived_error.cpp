@@ -201,13 +201,16 @@ Plane luma_of(const ShownPicture& p) {
 
 std::optional<ShownPicture> shown_picture(std::span<const Channel> channels, uint32_t width, uint32_t height,
                                           double exposure_ev) {
-    ShownPicture picture{width, height, {}};
+    ShownPicture picture{width, height, {}, 0};
     const double scale = std::exp2(exposure_ev);
     for (size_t c = 0; c < 3; ++c) {
         const auto found = std::find_if(channels.begin(), channels.end(),
                                         [&](const Channel& channel) { return channel.name == std::string(1, "RGB"[c]); });
         if (found == channels.end()) return std::nullopt;
-        for (const float v : found->values) picture.rgb[c].push_back(std::isfinite(v) ? std::clamp(v * scale, 0.0, 1.0) : 0.0);
+        for (const float v : found->values) {
+            picture.not_finite += std::isfinite(v) ? 0 : 1;
+            picture.rgb[c].push_back(std::isfinite(v) ? std::clamp(v * scale, 0.0, 1.0) : 0.0);
+        }
     }
     return picture;
 }

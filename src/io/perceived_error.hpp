@@ -16,9 +16,10 @@ struct ShownPicture {
     uint32_t width = 0;
     uint32_t height = 0;
     std::array<std::vector<double>, 3> rgb;
+    uint64_t not_finite = 0;  ///< Values among them that were not.
 };
 
-/// R, G and B times 2^exposure_ev, clamped; what is not finite is black. Nothing where a channel is missing.
+/// R, G and B times 2^exposure_ev, clamped; what is not finite is black, and counted. Nothing where a channel is missing.
 std::optional<ShownPicture> shown_picture(std::span<const Channel> channels, uint32_t width, uint32_t height,
                                           double exposure_ev);
 

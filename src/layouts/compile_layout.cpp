@@ -14,6 +14,7 @@
 
 #include "gpu/reflection.hpp"
 #include "source_table.h"
+#include "text/read_text.hpp"
 
 namespace gnomon {
 namespace {
@@ -59,8 +60,9 @@ private:
     IncludeResult* in_folder(const fs::path& header, const fs::path& from) {
         if (header.is_absolute() || std::find(header.begin(), header.end(), "..") != header.end())
             return failed("a layout includes only files of its own folder");
-        std::optional<std::string> text = read_text(from / header);
-        if (!text) return failed("no such file in the layout's folder");
+        std::string reason;
+        std::optional<std::string> text = read_text(from / header, reason);
+        if (!text) return failed(texts_.emplace_back("cannot be read from the layout's folder: " + reason));
         return made(from / header, texts_.emplace_back(std::move(*text)));
     }
 

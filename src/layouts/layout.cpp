@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layouts/layout.hpp"
 
-#include <fstream>
 #include <gnomon/error.hpp>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "shader_table.h"
+#include "text/json_bounds.hpp"
+#include "text/read_text.hpp"
 
 namespace gnomon {
 namespace {
+
+constexpr const char* kHint = "see CONTRIBUTING.md, A new layout";
 
 struct Format {
     gpu::Texel texel;
@@ -66,8 +68,9 @@ LayoutBuffer parse_buffer(const nlohmann::json& json, const std::string& where) 
 
 // Of a layout's folder.
 std::string read_part(const std::filesystem::path& path) {
-    if (std::optional<std::string> text = read_text(path)) return *text;
-    throw Error(ErrorKind::input, "a layout's file is missing or cannot be read", path.string(),
+    std::string reason;
+    if (std::optional<std::string> text = read_text(path, reason)) return *text;
+    throw Error(ErrorKind::input, "a layout's file is missing or cannot be read: " + reason, path.string(),
                 "name a folder with layout.glsl and layout.json");
 }
 
@@ -84,20 +87,12 @@ Layout load_layout(const std::filesystem::path& given) {
 
 }  // namespace
 
-std::optional<std::string> read_text(const std::filesystem::path& path) {
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(path, ignored)) return std::nullopt;
-    std::ifstream file(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(file), {}};
-    if (!file) return std::nullopt;
-    return text;
-}
-
 std::string Layout::stage(const std::string& name_without) const {
     return name_without + "@" + (folder.empty() ? name : folder.string());
 }
 
 Layout parse_layout(std::string_view text, const std::string& where) {
+    check_json(text, where, kHint);
     try {
         nlohmann::json json = nlohmann::json::parse(text);
         Layout layout;
@@ -108,8 +103,7 @@ Layout parse_layout(std::string_view text, const std::string& where) {
         for (const auto& buffer : json.at("buffers")) layout.buffers.push_back(parse_buffer(buffer, where));
         return layout;
     } catch (const nlohmann::json::exception& e) {
-        throw Error(ErrorKind::input, std::string("not a layout's manifest: ") + e.what(), where,
-                    "see CONTRIBUTING.md, A new layout");
+        throw Error(ErrorKind::input, std::string("not a layout's manifest: ") + e.what(), where, kHint);
     }
 }
 

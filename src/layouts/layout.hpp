@@ -55,7 +55,4 @@ Layout with_ranges(Layout layout, bool exit_depth);
 /// Parse a manifest. Errors: ErrorKind::input naming `where` and the member.
 Layout parse_layout(std::string_view json, const std::string& where);
 
-/// The content of a regular file; nothing where there is none that can be read.
-std::optional<std::string> read_text(const std::filesystem::path& path);
-
 }  // namespace gnomon

@@ -98,6 +98,7 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
 
     // The camera's vertices and the sampler; then window by window its prisms and samples.
     const View view = camera_view(scene.cameras[settings.camera], poses, settings.camera, settings.width, settings.height);
+    check_reach(view, bounds, "the camera", scene.path.string());
     const bool still = is_still(poses);
     const bool one_sided = method.one_sided && settings.closed_meshes;
     uint64_t closed_triangles = 0;

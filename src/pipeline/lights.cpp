@@ -40,8 +40,11 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
     : shared_(std::move(shared)),
       light_count_(static_cast<uint32_t>(scene.lights.size())),
       tolerance_(least_tolerance(bounds)) {
+    constexpr double kNearest = 1e-5;  // Ten times the metres below which a light does not get brighter: sample/shade.
     for (uint32_t i = 0; i < light_count_; ++i) {
+        const bool has_place = scene.lights[i].kind != LightKind::directional;
         for (const View& view : light_faces(scene.lights[i], poses, i, bounds, shared_.settings.shadow_res)) {
+            check_reach(view, bounds, "light " + std::to_string(i), scene.path.string(), has_place ? kNearest : 0.0);
             for (const Part part : parts_of(view)) {
                 Face& face = faces_.emplace_back();
                 face.part = part;

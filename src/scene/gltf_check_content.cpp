@@ -2,6 +2,7 @@
 // Checks of what nodes carry: meshes with their materials and textures, cameras, lights.
 #include <algorithm>
 #include <initializer_list>
+#include <limits>
 #include <numbers>
 
 #include "scene/gltf_check.hpp"
@@ -168,12 +169,15 @@ void check_camera(const Cursor& camera) {
 void check_light(const Cursor& light) {
     const std::string& type = light.get("type").string();
     if (type != "directional" && type != "point" && type != "spot") light.fail("unknown light type '" + type + "'");
+    const double intensity = light.number_or("intensity", 1.0);
+    if (intensity < 0.0) light.fail("the intensity must not be negative");
     if (const auto color = light.find("color")) {
         for (const double c : color->numbers(3)) {
             if (c < 0.0) color->fail("a colour must not be negative");
+            if (c * intensity > double{std::numeric_limits<float>::max()})
+                color->fail("the colour times the intensity is larger than a 32-bit float can hold, 3.4e38");
         }
     }
-    if (light.number_or("intensity", 1.0) < 0.0) light.fail("the intensity must not be negative");
     if (light.number_or("range", 1.0) <= 0.0) light.fail("the range must be above 0", "leave it out for an unlimited range");
     if (type != "spot") return;
     const Cursor spot = light.get("spot");

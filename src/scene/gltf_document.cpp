@@ -8,6 +8,7 @@
 
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_file.hpp"
+#include "text/json_bounds.hpp"
 
 namespace gnomon::gltf {
 
@@ -15,64 +16,15 @@ using nlohmann::json;
 
 namespace {
 
-// Bounds on what a small file can make the parsers allocate, far above what scenes hold.
-constexpr int kMaxDepth = 64;
-constexpr size_t kMaxObjects = 500'000;
-constexpr size_t kMaxValues = 8'000'000;
+constexpr const char* kHint = "repair or export the file again";
 
 [[noreturn]] void fail(const std::string& what, const std::string& name) {
-    throw Error(ErrorKind::input, what, "in " + name, "repair or export the file again");
+    throw Error(ErrorKind::input, what, "in " + name, kHint);
 }
-
-// Counts what the text holds without building it. A callback of the DOM parser could count, too, but makes that parser
-// quadratic (nlohmann-json 3.11.2 looks for discarded values in the whole parent after every object).
-class BoundScan : public nlohmann::json_sax<json> {
-public:
-    explicit BoundScan(const std::string& name) : name_(name) {}
-
-    bool null() override { return value(); }
-    bool boolean(bool) override { return value(); }
-    bool number_integer(number_integer_t) override { return value(); }
-    bool number_unsigned(number_unsigned_t) override { return value(); }
-    bool number_float(number_float_t, const string_t&) override { return value(); }
-    bool string(string_t&) override { return value(); }
-    bool binary(binary_t&) override { return value(); }
-    bool key(string_t&) override { return value(); }
-    bool start_object(std::size_t) override {
-        if (++objects_ > kMaxObjects) fail("the JSON text has more than " + std::to_string(kMaxObjects) + " objects", name_);
-        return deeper();
-    }
-    bool end_object() override { return shallower(); }
-    bool start_array(std::size_t) override { return deeper(); }
-    bool end_array() override { return shallower(); }
-    bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
-        fail("the file is not valid JSON (" + std::string(e.what()) + ")", name_);
-    }
-
-private:
-    bool value() {
-        if (++values_ > kMaxValues) fail("the JSON text has more than " + std::to_string(kMaxValues) + " values", name_);
-        return true;
-    }
-    bool deeper() {
-        if (++depth_ > kMaxDepth) fail("the JSON text is nested more than " + std::to_string(kMaxDepth) + " deep", name_);
-        return value();
-    }
-    bool shallower() {
-        --depth_;
-        return true;
-    }
-
-    const std::string& name_;
-    int depth_ = 0;
-    size_t objects_ = 0;
-    size_t values_ = 0;
-};
 
 json parse_json(const SceneFile& file) {
     if (file.json.starts_with("\xEF\xBB\xBF")) fail("the JSON text starts with a byte order mark", file.name);
-    BoundScan scan(file.name);
-    json::sax_parse(file.json, &scan);
+    check_json(file.json, "in " + file.name, kHint);
     return json::parse(file.json);
 }
 

@@ -89,13 +89,17 @@ Materials read_materials(const Document& document, std::vector<std::string>& war
     std::string masked;
     std::string blended;
     std::string nearest;
+    std::string outside;
     for (size_t i = 0; i < model.materials.size(); ++i) {
         const tinygltf::Material& from = model.materials[i];
         const std::string label = std::to_string(i) + (from.name.empty() ? "" : " '" + from.name + "'");
         Material material;
         material.name = from.name;
         const std::vector<double>& factor = from.pbrMetallicRoughness.baseColorFactor;
-        material.base_color = glm::dvec4(factor[0], factor[1], factor[2], factor[3]);
+        const glm::dvec4 base_color(factor[0], factor[1], factor[2], factor[3]);
+        const glm::dvec4 clamped = glm::clamp(base_color, 0.0, 1.0);
+        material.base_color = clamped;
+        if (clamped != base_color) outside += " " + label;
         const tinygltf::TextureInfo& info = from.pbrMetallicRoughness.baseColorTexture;
         if (info.index >= 0) {
             const tinygltf::Texture& texture = model.textures[static_cast<size_t>(info.index)];
@@ -114,6 +118,7 @@ Materials read_materials(const Document& document, std::vector<std::string>& war
     }
     warn_of("alpha masks are ignored, surfaces are opaque", masked, warnings);
     warn_of("alpha blending is ignored, surfaces are opaque", blended, warnings);
+    warn_of("base colour factors outside 0 to 1 are clamped", outside, warnings);
     warn_of("nearest filtering is ignored, textures are filtered bilinearly", nearest, warnings);
     result.materials.push_back({});
     result.materials.back().name = "default";

@@ -3,6 +3,7 @@
 #include "scene/json_cursor.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace gnomon::gltf {
 
@@ -70,6 +71,8 @@ double Cursor::number() const {
     if (!value_->is_number()) fail("a number is expected");
     const double number = value_->get<double>();
     if (!std::isfinite(number)) fail("the number is not finite");
+    if (std::abs(number) > double{std::numeric_limits<float>::max()})
+        fail("the number is larger than a 32-bit float can hold, 3.4e38");
     return number;
 }
 

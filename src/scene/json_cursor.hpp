@@ -48,7 +48,7 @@ public:
 
     /// This value as an integer between `least` and `most`.
     uint64_t integer(uint64_t least = 0, uint64_t most = std::numeric_limits<uint64_t>::max()) const;
-    /// This value as a finite number.
+    /// This value as a finite number that a 32-bit float can hold.
     double number() const;
     const std::string& string() const;
     bool boolean() const;

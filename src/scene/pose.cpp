@@ -73,18 +73,20 @@ std::vector<glm::dmat4> world_matrices(const Rig& rig, const State& state) {
     return world;
 }
 
-// The rotations of the node and its ancestors alone.
-glm::dquat rotation_without_scale(const Rig& rig, const State& state, int32_t node) {
-    glm::dquat rotation(1.0, 0.0, 0.0, 0.0);
-    for (; node != Rig::kNoNode; node = rig.nodes[static_cast<size_t>(node)].parent) {
-        rotation = state.transforms[static_cast<size_t>(node)].rotation * rotation;
+// The rotations of each node and its ancestors alone.
+std::vector<glm::dquat> world_rotations(const Rig& rig, const State& state) {
+    std::vector<glm::dquat> world(rig.nodes.size());
+    for (const uint32_t n : rig.order) {
+        const int32_t parent = rig.nodes[n].parent;
+        const glm::dquat& local = state.transforms[n].rotation;
+        world[n] = glm::normalize(parent == Rig::kNoNode ? local : world[static_cast<size_t>(parent)] * local);
     }
-    return glm::normalize(rotation);
+    return world;
 }
 
 // Strips the scale. The view axis -Z and, as far as it is perpendicular, the up axis Y keep their directions; X follows, so
 // that a mirrored node gives a rotation, too. Where a scale of 0 leaves no axes, they are those of the rotations alone.
-Rigid rigid_of(const Rig& rig, const State& state, const glm::dmat4& world, int32_t node) {
+Rigid rigid_of(const glm::dmat4& world, const glm::dquat& rotation_without_scale) {
     Rigid rigid;
     rigid.translation = glm::dvec3(world[3]);
     const glm::dvec3 back(world[2]);
@@ -96,7 +98,7 @@ Rigid rigid_of(const Rig& rig, const State& state, const glm::dmat4& world, int3
         const glm::dvec3 y = glm::normalize(up);
         rigid.rotation = glm::normalize(glm::quat_cast(glm::dmat3(glm::cross(y, z), y, z)));
     } else {
-        rigid.rotation = rotation_without_scale(rig, state, node);
+        rigid.rotation = rotation_without_scale;
     }
     return rigid;
 }
@@ -127,8 +129,9 @@ public:
         pose.seconds = seconds;
         add_palette(world, seconds, pose);
         add_weights(state, seconds, pose);
-        pose.cameras = carried(rig_.cameras, state, world, seconds);
-        pose.lights = carried(rig_.lights, state, world, seconds);
+        const std::vector<glm::dquat> rotations = world_rotations(rig_, state);
+        pose.cameras = carried(rig_.cameras, rotations, world, seconds);
+        pose.lights = carried(rig_.lights, rotations, world, seconds);
         return pose;
     }
 
@@ -164,13 +167,15 @@ private:
         }
     }
 
-    std::vector<Rigid> carried(const std::vector<Rig::Carrier>& carriers, const State& state,
+    std::vector<Rigid> carried(const std::vector<Rig::Carrier>& carriers, const std::vector<glm::dquat>& rotations,
                                const std::vector<glm::dmat4>& world, double seconds) const {
         std::vector<Rigid> result;
         for (const Rig::Carrier& carrier : carriers) {
             Rigid rigid = carrier.fixed;
-            if (carrier.node != Rig::kNoNode)
-                rigid = rigid_of(rig_, state, world[static_cast<size_t>(carrier.node)], carrier.node);
+            if (carrier.node != Rig::kNoNode) {
+                const auto node = static_cast<size_t>(carrier.node);
+                rigid = rigid_of(world[node], rotations[node]);
+            }
             const glm::dvec3 p = rigid.translation;
             const glm::dquat q = rigid.rotation;
             if (!std::isfinite(p.x + p.y + p.z + q.w + q.x + q.y + q.z)) fail("the place", carrier.node, seconds);

@@ -38,6 +38,13 @@ namespace {
 
 constexpr size_t kDecoderState = size_t{1} << 20;  // More than what stb_image keeps beside texels and packed data.
 
+// Texels that a byte of the file can hold at most. PNG: eight of a bit each, and deflate makes at most 1032 of one. JPEG:
+// blocks of 8x8 with a code of a bit for each.
+uint64_t most_texels_of_byte(std::span<const uint8_t> file) {
+    constexpr uint8_t kJpeg = 0xff;
+    return file[0] == kJpeg ? 8 * 64 : 8 * 1032;
+}
+
 }  // namespace
 
 std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& reason) {
@@ -47,6 +54,11 @@ std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& 
     int channels = 0;
     if (stbi_info_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels) == 0) {
         reason = stbi_failure_reason();
+        return std::nullopt;
+    }
+    if (static_cast<uint64_t>(width) * static_cast<uint64_t>(height) > file.size() * most_texels_of_byte(file)) {
+        reason = "its header states " + std::to_string(width) + "x" + std::to_string(height) +
+                 " texels, more than the file can hold";
         return std::nullopt;
     }
     return ImageSize{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};

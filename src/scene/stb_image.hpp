@@ -15,7 +15,8 @@ struct ImageSize {
     uint32_t height = 0;
 };
 
-/// What the header of an image file states; nothing, and a reason, if it is not valid. Sides are at most 16384.
+/// What the header of an image file states; nothing, and a reason, if it is not valid or states more than such a file can hold.
+/// Sides are at most 16384.
 std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& reason);
 
 /// Four bytes per texel, rows from the top; empty, and a reason, if the file is not valid. `size`: what the header states; data

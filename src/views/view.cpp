@@ -2,7 +2,10 @@
 #include "views/view.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <gnomon/error.hpp>
 #include <limits>
 
 namespace gnomon {
@@ -172,6 +175,28 @@ View fitted(const View& view, uint32_t resolution, const std::vector<ViewBox>& b
         key.row_y *= times.y;
     }
     return fit;
+}
+
+void check_reach(const View& view, const Bounds& bounds, const std::string& whose, const std::string& file,
+                 double least_metres) {
+    // Of determinants: three raster coordinates, two of them times the scale. Those of small triangles are less.
+    constexpr double kLeast = 1e-33, kMost = 1e37;
+    double metres = 0.0;
+    for (const ViewKey& key : view.keys) {
+        const glm::dvec3 origin(key.origin);
+        metres = std::max(metres, glm::length(glm::max(glm::abs(glm::dvec3(bounds.lower) - origin),
+                                                       glm::abs(glm::dvec3(bounds.upper) - origin))));
+    }
+    const double raster = metres * static_cast<double>(std::max(view.scale_x, view.scale_y));
+    const double determinant = raster * raster * metres;
+    const bool is_far = determinant > kMost;
+    if (!is_far && (metres == 0.0 || (determinant >= kLeast && metres >= least_metres))) return;
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", metres);
+    throw Error(ErrorKind::input,
+                std::string("the scene reaches ") + text.data() + " m far from " + whose + ", " + (is_far ? "more" : "less") +
+                    " than 32-bit floats can render at this size",
+                file, is_far ? "scale it down, to metres" : "scale it up, to metres");
 }
 
 float least_tolerance(const Bounds& bounds) {

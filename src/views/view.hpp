@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <gnomon/render.hpp>
 #include <gnomon/scene.hpp>
+#include <string>
 #include <vector>
 
 #include "math/face.h"
@@ -60,6 +61,11 @@ struct ViewBox {
 /// An orthographic view of so many texels along a side that shows at key k boxes[k] of `view`, and little else: between keys
 /// its window moves as the boxes do.
 View fitted(const View& view, uint32_t resolution, const std::vector<ViewBox>& boxes);
+
+/// That 32-bit floats hold what is computed of a scene with these bounds in a view. `whose`, as "the camera", and the scene's
+/// file are for the message; a scene has to reach `least_metres` far at least. Errors: ErrorKind::input.
+void check_reach(const View& view, const Bounds& bounds, const std::string& whose, const std::string& file,
+                 double least_metres = 0.0);
 
 /// The least metres along a hit's normal within which nothing occludes it: 2^-23 of the scene's largest coordinate, the
 /// rounding of a light's space. At most hits 2^-20 of their own largest coordinate is more, and taken.

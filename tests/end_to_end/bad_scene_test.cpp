@@ -131,12 +131,30 @@ TEST(BadScenes, FarAwayTinyAndLarge) {
     }
 }
 
-TEST(BadScenes, CoordinatesNearTheLimitsOfFloat) {
-    for (const double scale : {1e-30, 1e-18, 1e15, 1e20, 1e30}) {
-        SCOPED_TRACE(scale);
-        const Frame frame = render(placed(scale, glm::dvec3(0.0)));
-        EXPECT_EQ(frame.channels.size(), 9u);
-    }
+TEST(BadScenes, CoordinatesBeyondTheLimitsOfFloatAreRefused) {
+    for (const double scale : {1e-30, 1e-18, 1e-14}) expect_refused(placed(scale, glm::dvec3(0.0)), "scale it up");
+    for (const double scale : {1e13, 1e15, 1e20, 1e30}) expect_refused(placed(scale, glm::dvec3(0.0)), "scale it down");
+}
+
+// Under a sun, whose light does not depend on the distance, the picture is the same at any scale.
+TEST(BadScenes, TheSameLightAtAnyScale) {
+    const auto at_scale = [](double scale) {
+        MovingTriangles scene = still_life(1);
+        for (Pose& pose : scene.poses) {
+            for (glm::vec4& row : pose.palette) row *= static_cast<float>(scale);
+            for (Rigid& r : pose.cameras) r.translation *= scale;
+        }
+        for (Camera& camera : scene.scene.cameras) camera.znear *= scale;
+        return render(scene);
+    };
+    const auto light_of = [](const Frame& frame) {
+        double sum = 0.0;
+        for (const float value : frame.channels[0].values) sum += static_cast<double>(value);
+        return sum;
+    };
+    const double light = light_of(at_scale(1.0));
+    ASSERT_GT(light, 0.0);
+    for (const double scale : {1e-12, 1e-11, 5e9, 1e10}) EXPECT_NEAR(light_of(at_scale(scale)), light, 1e-2 * light) << scale;
 }
 
 TEST(BadScenes, LightAtASurfaceAndCameraInATriangle) {

@@ -143,6 +143,12 @@ TEST_F(ExternalLayoutTest, NamesAMissingFile) {
 TEST_F(ExternalLayoutTest, NamesWhatIsWrongInTheManifest) {
     copy_layout("array");
     edit("layout.json", "\"buffers\": [", "\"buffers\": ");
+    expect_input_error({"not valid JSON", path("layout.json")});
+    copy_layout("array");
+    edit("layout.json", "\"buffers\": [", "\"buffers\": [" + std::string(80'000, '[') + std::string(80'000, ']') + ", ");
+    expect_input_error({"nested more than 64 deep", path("layout.json")});
+    copy_layout("array");
+    edit("layout.json", "\"buffers\"", "\"Buffers\"");
     expect_input_error({"not a layout's manifest", path("layout.json")});
     copy_layout("array");
     edit("layout.json", "rgba32_float", "rgb8");

@@ -3,7 +3,7 @@
 include(CMakePackageConfigHelpers)
 
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/gnomon)
-install(TARGETS gnomon_scene gnomon_gpu gnomon_pipeline EXPORT gnomonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS gnomon_text gnomon_scene gnomon_gpu gnomon_pipeline EXPORT gnomonTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION ${config_folder})
 install(DIRECTORY include/gnomon ${PROJECT_BINARY_DIR}/include/gnomon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
         FILES_MATCHING PATTERN "*.hpp")

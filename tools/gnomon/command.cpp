@@ -2,6 +2,7 @@
 // What the subcommands share: how they are registered, what they return, where their results go.
 #include "command.hpp"
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -10,8 +11,23 @@
 #include <memory>
 
 #include "io/atomic_file.hpp"
+#include "text/printable.hpp"
 
 namespace gnomon::cli {
+
+namespace {
+
+/// A message's text: what libraries put into it and names from files are one line, whatever they hold.
+class PrintableText : public spdlog::custom_flag_formatter {
+public:
+    void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& to) override {
+        const std::string text = printable({message.payload.data(), message.payload.size()});
+        to.append(text.data(), text.data() + text.size());
+    }
+    std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<PrintableText>(); }
+};
+
+}  // namespace
 
 CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& name, const std::string& description) {
     CLI::App* command = app.add_subcommand(name, description);
@@ -30,7 +46,9 @@ void start_log() {
     auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>(plain ? spdlog::color_mode::never
                                                                             : spdlog::color_mode::automatic);
     spdlog::set_default_logger(std::make_shared<spdlog::logger>("gnomon", sink));
-    spdlog::set_pattern("gnomon: %^%l%$: %v");
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<PrintableText>('*').set_pattern("gnomon: %^%l%$: %*");
+    spdlog::set_formatter(std::move(formatter));
 }
 
 void log_device(const DeviceDescription& device, bool was_named) {
@@ -50,6 +68,8 @@ void write_json(const std::string& target, const io::Json& json, int indent) {
     }
 }
 
-void print_row(const std::string& label, const std::string& value) { std::cout << fmt::format("{:<16} {}\n", label, value); }
+void print_line(const std::string& text) { std::cout << printable(text) << '\n'; }
+
+void print_row(const std::string& label, const std::string& value) { print_line(fmt::format("{:<16} {}", label, value)); }
 
 }  // namespace gnomon::cli

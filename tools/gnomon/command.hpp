@@ -35,7 +35,8 @@ void add_compare(CLI::App& app, Invocation& invocation);
 void add_ranges(CLI::App& app, Invocation& invocation);
 void add_reproduce(CLI::App& app, Invocation& invocation);  ///< Only where the reference is built (GNOMON_HAS_REFERENCE).
 
-/// Messages go to stderr as `gnomon: LEVEL: TEXT`, in colour on a terminal unless NO_COLOR is set.
+/// Messages go to stderr as `gnomon: LEVEL: TEXT`, TEXT as printable() makes it, in colour on a terminal unless NO_COLOR is
+/// set.
 void start_log();
 
 /// Say which device renders, and warn where it is a CPU that was not asked for.
@@ -43,6 +44,9 @@ void log_device(const DeviceDescription& device, bool was_named);
 
 /// Write a document to a file, or, for "-", to stdout; indent -1: on one line.
 void write_json(const std::string& target, const io::Json& json, int indent = 2);
+
+/// A line of results for people, as printable() makes it.
+void print_line(const std::string& text);
 
 /// A label and a value, one line of a table for people.
 void print_row(const std::string& label, const std::string& value);

@@ -2,7 +2,6 @@
 // Methods compared after the same seconds and at the same error, from several renders of each.
 #include <spdlog/fmt/fmt.h>
 
-#include <iostream>
 
 #include "command.hpp"
 #include "compare.hpp"
@@ -92,19 +91,19 @@ io::Json curves_json(const CompareOptions& options, const std::vector<ChannelCur
 
 /// A row for each place, a column for each method.
 void print_answers(const std::string& heading, const ChannelCurves& channel, const Question& question, const char* after_last) {
-    std::cout << fmt::format("{:<20}", heading);
-    for (const MethodCurve& method : channel.methods) std::cout << fmt::format("  {:>20}", method.method);
-    std::cout << "\n";
+    std::string line = fmt::format("{:<20}", heading);
+    for (const MethodCurve& method : channel.methods) line += fmt::format("  {:>20}", method.method);
+    print_line(line);
     for (const double place : question.places) {
-        std::cout << fmt::format("{:<20.4g}", place);
+        line = fmt::format("{:<20.4g}", place);
         for (const MethodCurve& method : channel.methods) {
             const CurveValue value = (method.curve().*question.answer)(place);
             std::string text = fmt::format("{:.4g} +- {:.2g}", value.value, value.standard_error);
             if (value.where == CurveValue::Where::before_first) text = "before the first";
             if (value.where == CurveValue::Where::after_last) text = after_last;
-            std::cout << fmt::format("  {:>20}", text);
+            line += fmt::format("  {:>20}", text);
         }
-        std::cout << "\n";
+        print_line(line);
     }
 }
 
@@ -116,7 +115,7 @@ int compare_curves(const CompareOptions& options) {
     if (!options.json.empty()) write_json(options.json, json);
     if (options.json == "-") return kDone;
     for (const ChannelCurves& channel : channels) {
-        std::cout << fmt::format("{} of {} against {}\n", options.metric, channel.name, options.files.back());
+        print_line(fmt::format("{} of {} against {}", options.metric, channel.name, options.files.back()));
         print_answers("error after seconds", channel, error_after(options, channel), "after the last");
         print_answers("seconds to error", channel, seconds_to(options, channel), "not reached");
     }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gnomon/error.hpp>
-#include <iostream>
 #include <map>
 
 #include "command.hpp"
@@ -56,11 +55,12 @@ std::vector<Channel> difference_to_show(std::vector<Channel> channels) {
     return shown;
 }
 
-/// Is what was asked for by name worse than the threshold? Nothing for the metrics of single channels.
-std::optional<bool> is_over(const PerceivedError& error, const std::string& metric, double threshold) {
-    if (metric == "flip") return error.flip_mean.mean > threshold;
-    if (metric == "ssim") return error.ssim < threshold;
-    return std::nullopt;
+/// Is what was asked for by name worse than the threshold? Pictures with values that are not finite always are. Never by the
+/// metrics of single channels.
+bool is_over(const PerceivedError& error, const std::string& metric, double threshold) {
+    if (metric == "flip") return error.not_finite > 0 || error.flip_mean.mean > threshold;
+    if (metric == "ssim") return error.not_finite > 0 || error.ssim < threshold;
+    return false;
 }
 
 void write_flip(const std::string& path, const ExrImage& image, const PerceivedError& error) {
@@ -103,6 +103,7 @@ io::Json compare_json(const CompareOptions& options, const ImagePair& pair, cons
         json["flip"] = {{"mean", perceived->flip_mean.mean},
                         {"mean_standard_error", perceived->flip_mean.standard_error},
                         {"max", perceived->flip_max},
+                        {"not_finite", perceived->not_finite},
                         {"pixels_per_degree", io::kPixelsPerDegree},
                         {"exposure", options.exposure}};
         json["ssim"] = perceived->ssim;
@@ -117,16 +118,15 @@ io::Json compare_json(const CompareOptions& options, const ImagePair& pair, cons
 void print_table(const std::vector<ChannelError>& errors, bool noise_is_a_bound) {
     size_t width = 7;
     for (const ChannelError& error : errors) width = std::max(width, error.name.size());
-    std::cout << fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>8} {:>12} {:>9} {:>12} {:>11}\n", "channel", width, "bias",
-                             "s.e.", "RMSE", "s.e.", noise_is_a_bound ? "noise <=" : "noise", "max", "PSNR dB", "relative MSE",
-                             "not finite");
+    print_line(fmt::format("{:<{}} {:>11} {:>8} {:>12} {:>8} {:>8} {:>12} {:>9} {:>12} {:>11}", "channel", width, "bias",
+                           "s.e.", "RMSE", "s.e.", noise_is_a_bound ? "noise <=" : "noise", "max", "PSNR dB", "relative MSE",
+                           "not finite"));
     for (const ChannelError& error : errors) {
         const bool noise_is_known = error.noise && std::isfinite(error.noise->share);
-        std::cout << fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>8} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}\n",
-                                 error.name, width, error.bias, error.bias_standard_error, error.rmse,
-                                 error.rmse_standard_error,
-                                 noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
-                                 error.psnr, error.rel_mse, error.not_finite);
+        print_line(fmt::format("{:<{}} {:>11.4g} {:>8.2g} {:>12.6g} {:>8.2g} {:>8} {:>12.6g} {:>9.2f} {:>12.6g} {:>11}",
+                               error.name, width, error.bias, error.bias_standard_error, error.rmse, error.rmse_standard_error,
+                               noise_is_known ? fmt::format("{:.1f} %", 100.0 * error.noise->share) : "-", error.max,
+                               error.psnr, error.rel_mse, error.not_finite));
     }
 }
 
@@ -162,7 +162,7 @@ int compare_images(const CompareOptions& options) {
     if (!perceived && (!options.flip_png.empty() || !kMetrics.contains(options.metric)))
         throw Error(ErrorKind::input, "FLIP and SSIM need the channels R, G and B", pair.paths(),
                     "compare images that have them, and do not leave them out");
-    if (perceived && options.threshold) over = over || is_over(*perceived, options.metric, *options.threshold).value_or(false);
+    if (perceived && options.threshold) over = over || is_over(*perceived, options.metric, *options.threshold);
 
     if (!options.flip_png.empty()) write_flip(options.flip_png, a.image, *perceived);
     if (!options.diff.empty() || !options.diff_png.empty()) {
@@ -176,8 +176,8 @@ int compare_images(const CompareOptions& options) {
     if (options.json != "-") {
         print_table(errors, options.again.empty());
         if (perceived)
-            std::cout << fmt::format("FLIP {:.6g} mean, s.e. {:.2g}, {:.6g} max; SSIM {:.6g}\n", perceived->flip_mean.mean,
-                                     perceived->flip_mean.standard_error, perceived->flip_max, perceived->ssim);
+            print_line(fmt::format("FLIP {:.6g} mean, s.e. {:.2g}, {:.6g} max; SSIM {:.6g}", perceived->flip_mean.mean,
+                                   perceived->flip_mean.standard_error, perceived->flip_max, perceived->ssim));
     }
     return over ? kOverThreshold : kDone;
 }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <gnomon/error.hpp>
 #include <gnomon/render.hpp>
-#include <iostream>
 #include <memory>
 
 #include "command.hpp"
@@ -33,12 +32,12 @@ io::Json devices_json(const std::vector<DeviceDescription>& devices) {
 void print_devices(const std::vector<DeviceDescription>& devices) {
     for (const DeviceDescription& device : devices) {
         const double gibibytes = static_cast<double>(device.heap_bytes) / (1024.0 * 1024.0 * 1024.0);
-        std::cout << fmt::format("{} {:>2}  {}  ({}, {:.1f} GiB)  {}\n", device.chosen ? '*' : ' ', device.index, device.name,
-                                 device.type, gibibytes, device.driver);
-        if (!device.missing.empty()) std::cout << fmt::format("      not usable: lacks {}\n", fmt::join(device.missing, ", "));
+        print_line(fmt::format("{} {:>2}  {}  ({}, {:.1f} GiB)  {}", device.chosen ? '*' : ' ', device.index, device.name,
+                               device.type, gibibytes, device.driver));
+        if (!device.missing.empty()) print_line(fmt::format("      not usable: lacks {}", fmt::join(device.missing, ", ")));
     }
     if (std::any_of(devices.begin(), devices.end(), [](const DeviceDescription& device) { return device.chosen; }))
-        std::cout << "* would be used\n";
+        print_line("* would be used");
 }
 
 }  // namespace

@@ -140,6 +140,9 @@ std::optional<PerceivedError> perceived_error(const ImagePair& pair, double expo
     error.flip_mean = io::pixel_mean(error.flip, shown->width);
     error.flip_max = *std::max_element(error.flip.begin(), error.flip.end());
     error.ssim = io::ssim(*shown, *reference);
+    error.not_finite = shown->not_finite + reference->not_finite;
+    if (error.not_finite > 0)
+        spdlog::warn("{} values of R, G and B are not finite; FLIP and SSIM take them for black", error.not_finite);
     const auto shown_again = again != nullptr ? shown_picture(again->image, exposure) : std::nullopt;
     if (shown_again)
         error.flip_mean.standard_error =

@@ -61,6 +61,7 @@ struct PerceivedError {
     io::PixelMean flip_mean;
     double flip_max = 0.0;
     double ssim = 0.0;
+    uint64_t not_finite = 0;  ///< Values of either picture that are NaN or infinite.
 };
 
 /// Nothing where an image lacks R, G or B. The second render of a is for the standard error.

@@ -4,7 +4,6 @@
 
 #include <gnomon/error.hpp>
 #include <gnomon/scene.hpp>
-#include <iostream>
 #include <memory>
 #include <numeric>
 

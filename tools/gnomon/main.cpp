@@ -2,7 +2,6 @@
 // The command `gnomon`: parses the command line, runs a subcommand, turns exceptions into exit codes.
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <csignal>
 #include <gnomon/error.hpp>
 #include <gnomon/version.hpp>
@@ -10,6 +9,7 @@
 #include <new>
 
 #include "command.hpp"
+#include "io/atomic_file.hpp"
 #include "parse_error.hpp"
 
 namespace {
@@ -42,16 +42,10 @@ int run(int argc, char** argv) {
         const std::string name = commands.empty() ? "gnomon" : "gnomon " + commands.front()->get_name();
         throw Error(ErrorKind::usage, gnomon::tools::parse_error_text(app, error), "command line", "see '" + name + " --help'");
     }
+    gnomon::tools::refuse_empty_values(app);
     if (!invocation.run) throw Error(ErrorKind::usage, "no command given", "command line", "see 'gnomon --help'");
     spdlog::set_level(invocation.quiet ? spdlog::level::err : invocation.verbose ? spdlog::level::debug : spdlog::level::info);
     return invocation.run();
-}
-
-/// An error is one line, whatever the libraries below put into their messages.
-void report(std::string message) {
-    std::replace_if(
-        message.begin(), message.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
-    spdlog::error("{}", message);
 }
 
 }  // namespace
@@ -59,6 +53,7 @@ void report(std::string message) {
 int main(int argc, char** argv) {
     // A file over the limit on sizes is then an error of the write, and its temporary file is removed.
     std::signal(SIGXFSZ, SIG_IGN);
+    gnomon::io::remove_unfinished_files_on_signals();
     gnomon::cli::start_log();
     try {
         const int exit_code = run(argc, argv);
@@ -66,13 +61,13 @@ int main(int argc, char** argv) {
             throw Error(ErrorKind::input, "cannot write the results", "standard output", "send them to a file with free space");
         return exit_code;
     } catch (const Error& error) {
-        report(error.what());
+        spdlog::error("{}", error.what());
         return error.exit_code();
     } catch (const std::bad_alloc&) {
-        report("out of memory, on the host; render a smaller image or a smaller scene");
+        spdlog::error("out of memory, on the host; render a smaller image or a smaller scene");
         return static_cast<int>(ErrorKind::out_of_memory);
     } catch (const std::exception& error) {
-        report(std::string("internal error: ") + error.what() + ", gnomon " GNOMON_VERSION "; please report it");
+        spdlog::error("internal error: {}, gnomon " GNOMON_VERSION "; please report it", error.what());
         return static_cast<int>(ErrorKind::internal);
     }
 }

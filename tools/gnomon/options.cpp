@@ -19,6 +19,7 @@ namespace gnomon::cli {
 namespace {
 
 constexpr uint32_t kMaxSide_px = 16384;
+constexpr uint32_t kMostFrames = 100'000;  // Over an hour; their files are all checked before the first is rendered.
 
 /// The whole of the text as a number, in the C locale whatever the user's.
 template <class T>
@@ -103,6 +104,9 @@ FrameRange parse_frames(const std::string& text, const std::string& option) {
     const auto last = number_from<uint32_t>(last_text);
     if (!first || !last || *last < *first)
         throw_usage(fmt::format("'{}' is not a range of frames", text), option, "give FIRST-LAST, both included, as in 0-47");
+    if (*last - *first >= kMostFrames)
+        throw_usage(fmt::format("{} frames are more than {}", uint64_t{*last} - *first + 1, kMostFrames), option,
+                    "render them in parts");
     return {*first, *last};
 }
 

@@ -2,6 +2,8 @@
 // `gnomon render`: a frame, or a sequence of frames, from a scene.
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <cmath>
 #include <gnomon/error.hpp>
 #include <gnomon/render.hpp>
 #include <memory>
@@ -37,6 +39,17 @@ void log_statistics(const FrameStats& stats) {
         spdlog::debug("{:<24} {:10.6f} s in {} dispatches", stage.name, stage.seconds, stage.dispatches);
     for (const auto& [name, count] : stats.counts) spdlog::debug("{:<24} {:10}", name, count);
     spdlog::debug("{:<24} {:10} bytes", "peak device memory", stats.peak_bytes);
+}
+
+/// Light without bounds gives sums without bounds.
+void check_finite(const Frame& frame, const std::string& scene) {
+    uint64_t not_finite = 0;
+    for (const Channel& channel : frame.channels)
+        not_finite += static_cast<uint64_t>(
+            std::count_if(channel.values.begin(), channel.values.end(), [](float value) { return !std::isfinite(value); }));
+    if (not_finite > 0)
+        throw Error(ErrorKind::input, fmt::format("{} values of the picture are more than 32-bit floats can hold", not_finite),
+                    scene, "lower the intensity of its lights");
 }
 
 void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions& options, const io::Json& settings,
@@ -92,6 +105,7 @@ int render(const RenderOptions& options, bool quiet) {
             return kInterrupted;
         }
 
+        check_finite(frame, options.scene);
         write_outputs(frame, job, options,
                       frame_settings(options, settings, job, drawn.cameras[settings.camera].name, renderer.device().name),
                       drawn.warnings);

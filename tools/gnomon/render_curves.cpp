@@ -5,11 +5,12 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <gnomon/error.hpp>
 
 #include "image_errors.hpp"
 #include "io/report.hpp"
+#include "text/json_bounds.hpp"
+#include "text/read_text.hpp"
 
 namespace gnomon::cli {
 
@@ -33,8 +34,10 @@ struct RenderTwice {
     std::optional<Render> again;
 };
 
+constexpr const char* kHint = "give what render --json has written";
+
 [[noreturn]] void throw_not_a_render(const std::string& path, const std::string& reason) {
-    throw Error(ErrorKind::input, "cannot read the render: " + reason, path, "give what render --json has written");
+    throw Error(ErrorKind::input, "cannot read the render: " + reason, path, kHint);
 }
 
 /// The image is where the document says it is or, if that has moved, beside the document.
@@ -56,10 +59,12 @@ std::string method_of(const io::Json& settings, const std::vector<std::string>& 
 }
 
 Render read_render(const std::string& path, const std::vector<std::string>& by) {
-    std::ifstream file(path);
-    if (!file) throw_not_a_render(path, "the file cannot be opened");
+    std::string reason;
+    const std::optional<std::string> text = read_text(path, reason);
+    if (!text) throw_not_a_render(path, reason);
+    check_json(*text, path, kHint);
     try {
-        const io::Json json = io::Json::parse(file);
+        const io::Json json = io::Json::parse(*text);
         if (json.at("schema") != "gnomon.render") throw_not_a_render(path, "its schema is " + json.at("schema").dump());
         const io::Json& settings = json.at("settings");
         return {.json = path,

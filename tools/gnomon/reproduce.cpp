@@ -65,7 +65,7 @@ double total_samples(const std::vector<const Figure*>& chosen, const MeasureOpti
 }
 
 void print_claims(const FigureReport& report, const fs::path& file) {
-    std::cout << fmt::format("{}: {}\n", report.figure.name, file.string());
+    print_line(fmt::format("{}: {}", report.figure.name, file.string()));
     for (const ClaimResult& claim : report.claims)
         std::cout << fmt::format("    {:<14} {}{}\n", to_text(claim.verdict), claim.run.empty() ? "" : claim.run + ": ",
                                  claim.quote);

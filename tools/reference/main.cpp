@@ -114,7 +114,7 @@ void run(Options options) {
 
     const std::vector<std::string>& warnings = scene.warnings;
     if (!options.quiet) {
-        for (const std::string& warning : warnings) std::cerr << "reference: warning: " << warning << '\n';
+        for (const std::string& warning : warnings) std::cerr << "reference: warning: " << printable(warning) << '\n';
     }
 
     const Frame frame = trace_reference(scene, poses, r);

@@ -2,6 +2,8 @@
 // Listing and choosing devices, their limits.
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
+#include <fstream>
 
 #include "gpu/vulkan.hpp"
 #include "gpu_test.hpp"
@@ -35,6 +37,21 @@ TEST(ListDevices, WithoutADriverIsEmpty) {
     const ScopedVariable no_icds("VK_ICD_FILENAMES", "/nonexistent.json");
     EXPECT_THAT(list_devices(), testing::IsEmpty());
     expect_error(ErrorKind::no_device, {"no Vulkan device"}, [] { Device("", false); });
+}
+
+// Whether a loader goes on with the other drivers or not, memory is not what lacks.
+TEST(ListDevices, AManifestThatIsBrokenIsNamedOrPassedOver) {
+    const std::filesystem::path folder = testing::TempDir();
+    std::ofstream(folder / "gnomon_broken.json") << "{";
+    const std::string broken = (folder / "gnomon_broken.json").string();
+    const ScopedVariable drivers("VK_DRIVER_FILES", broken.c_str());
+    const ScopedVariable icds("VK_ICD_FILENAMES", broken.c_str());
+    try {
+        EXPECT_THAT(list_devices(), testing::IsEmpty());
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::no_device);
+        EXPECT_THAT(error.what(), testing::HasSubstr("gnomon_broken.json"));
+    }
 }
 
 TEST(Validation, WithoutTheLayerNamesThePackage) {

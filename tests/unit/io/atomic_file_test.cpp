@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <csignal>
 
@@ -94,6 +96,69 @@ TEST_F(AtomicFileTest, FollowsASymbolicLink) {
     io::write_file(folder / "link", "new");
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
     EXPECT_EQ(content_of(folder / "target"), "new");
+}
+
+TEST_F(AtomicFileTest, MakesWhatADanglingLinkLeadsTo) {
+    std::filesystem::create_directory(folder / "sub");
+    std::filesystem::create_symlink("sub/other", folder / "link");
+    std::filesystem::create_symlink("../target", folder / "sub" / "other");
+    io::write_file(folder / "link", "new");
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "sub" / "other"));
+    EXPECT_EQ(content_of(folder / "target"), "new");
+    std::filesystem::create_symlink("none/target", folder / "nowhere");
+    EXPECT_GNOMON_ERROR(io::write_file(folder / "nowhere", "new"), ErrorKind::input, "create the folder first");
+    std::filesystem::create_symlink("loop", folder / "loop");
+    EXPECT_GNOMON_ERROR(io::write_file(folder / "loop", "new"), ErrorKind::input, "symbolic links");
+    EXPECT_EQ(names(), (Names{"link", "loop", "nowhere", "sub", "target"}));
+}
+
+TEST_F(AtomicFileTest, AFileThatReplacesAnotherHasItsMode) {
+    for (const mode_t mode : {0600u, 0640u, 0666u, 0400u}) {
+        put_content(folder / "a.txt", "old");
+        ASSERT_EQ(chmod((folder / "a.txt").c_str(), mode), 0);
+        io::write_file(folder / "a.txt", "new");
+        struct stat status {};
+        ASSERT_EQ(stat((folder / "a.txt").c_str(), &status), 0);
+        EXPECT_EQ(status.st_mode & 07777u, mode);
+        EXPECT_EQ(content_of(folder / "a.txt"), "new");
+        std::filesystem::remove(folder / "a.txt");
+    }
+}
+
+TEST_F(AtomicFileTest, SignalsThatEndTheProcessLeaveNothing) {
+    for (const int signal : {SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGXCPU, SIGALRM, SIGUSR1}) {
+        const pid_t child = fork();
+        if (child == 0) {
+            const rlimit no_core{0, 0};
+            setrlimit(RLIMIT_CORE, &no_core);
+            io::remove_unfinished_files_on_signals();
+            AtomicFile first(folder / "a.txt"), second(folder / "b.txt");
+            first.write(bytes_of("part"));
+            std::raise(signal);
+            _exit(0);
+        }
+        int status = 0;
+        waitpid(child, &status, 0);
+        EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal;
+        EXPECT_EQ(names(), Names{}) << signal;
+    }
+}
+
+TEST_F(AtomicFileTest, SignalsThatAreIgnoredStaySo) {
+    const pid_t child = fork();
+    if (child == 0) {
+        std::signal(SIGHUP, SIG_IGN);  // As by nohup.
+        io::remove_unfinished_files_on_signals();
+        AtomicFile file(folder / "a.txt");
+        std::raise(SIGHUP);
+        file.commit();
+        _exit(7);
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 7);
+    EXPECT_EQ(names(), Names{"a.txt"});
 }
 
 TEST_F(AtomicFileTest, AcceptsTheLongestName) {

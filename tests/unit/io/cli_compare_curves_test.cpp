@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `gnomon compare` of several renders of each method.
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 
@@ -128,6 +129,10 @@ TEST_F(CliCompareCurvesTest, UsageErrorsExitWith2) {
 
 TEST_F(CliCompareCurvesTest, BadInputExitsWith3) {
     put_content(folder / "broken.json", "{");
+    put_content(folder / "deep.json", R"({"schema": "gnomon.render", "settings": {"method": )" + std::string(80'000, '[') +
+                                          std::string(80'000, ']') + "}}");
+    std::filesystem::create_directory(folder / "folder.json");
+    ASSERT_EQ(mkfifo((folder / "pipe.json").c_str(), 0600), 0);
     put_content(folder / "other.json", R"({"schema": "gnomon.compare"})");
     put_content(folder / "empty.json", R"({"schema": "gnomon.render", "settings": {}})");
     render("stale", "tsm", 1.0, 0.5f, 4);
@@ -136,8 +141,11 @@ TEST_F(CliCompareCurvesTest, BadInputExitsWith3) {
     render("no_time", "tsm", 0.0, 0.4f, 5);
     render("equal", "tsm", 1.0, 0.0f, 4);
     for (const auto& [arguments, text] : std::vector<std::pair<std::vector<std::string>, std::string>>{
-             {{"none.json"}, "the file cannot be opened, none.json"},
-             {{"broken.json"}, "cannot read the render: "},
+             {{"none.json"}, "there is no such file, none.json"},
+             {{"broken.json"}, "not valid JSON"},
+             {{"deep.json"}, "nested more than 64 deep, deep.json"},
+             {{"folder.json"}, "it is not a regular file, folder.json"},
+             {{"pipe.json"}, "it is not a regular file, pipe.json"},
              {{"other.json"}, "its schema is \"gnomon.compare\", other.json"},
              {{"empty.json"}, "'device' not found"},
              {{"stale.json"}, "gnomon:method is not tsm, stale.exr"},

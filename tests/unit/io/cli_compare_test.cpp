@@ -2,6 +2,7 @@
 // `gnomon compare` as its users see it.
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "command_runner.hpp"
@@ -175,6 +176,28 @@ TEST_F(CliCompareTest, NanIsReportedAndOverAnyThreshold) {
     const CommandResult result = compare({"nan.exr", "only_r.exr", "--threshold=100"});
     EXPECT_EQ(result.exit_code, 8);
     EXPECT_THAT(result.err, HasSubstr("channel R has 1 values that are not finite"));
+}
+
+TEST_F(CliCompareTest, PicturesThatAreNotFiniteAreOverAnyThreshold) {
+    const std::vector<float> grey(12 * 12, 0.5f), nan(12 * 12, std::nanf(""));
+    std::vector<float> spot = grey;
+    spot[7] = INFINITY;
+    const auto write = [&](const char* name, const std::vector<float>& red) {
+        io::write_exr(folder / name, 12, 12, std::vector<Channel>{{"R", red}, {"G", grey}, {"B", grey}}, {});
+    };
+    write("grey.exr", grey);
+    write("spot.exr", spot);
+    io::write_exr(folder / "nan.exr", 12, 12, std::vector<Channel>{{"R", nan}, {"G", nan}, {"B", nan}}, {});
+    for (const char* metric : {"--metric=flip", "--metric=ssim"}) {
+        const std::string threshold = metric == std::string("--metric=flip") ? "--threshold=1" : "--threshold=0";
+        EXPECT_EQ(compare({"grey.exr", "grey.exr", metric, threshold}).exit_code, 0) << metric;
+        for (const auto& [a, b] :
+             {std::pair("nan.exr", "grey.exr"), {"grey.exr", "nan.exr"}, {"nan.exr", "nan.exr"}, {"spot.exr", "grey.exr"}})
+            EXPECT_EQ(compare({a, b, metric, threshold}).exit_code, 8) << metric << " " << a << " " << b;
+    }
+    const CommandResult result = compare({"nan.exr", "spot.exr", "--json=-"});
+    EXPECT_EQ(json::parse(result.out)["flip"]["not_finite"], 3 * 144 + 1);
+    EXPECT_THAT(result.err, HasSubstr("433 values of R, G and B are not finite"));
 }
 
 TEST_F(CliCompareTest, QuietLeavesErrorsOnly) {

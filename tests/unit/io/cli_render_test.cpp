@@ -108,6 +108,19 @@ TEST_F(CliRenderTest, UnusedOptionsAreNamed) {
     EXPECT_THAT(result.err, HasSubstr("gnomon: warning: --exposure has no effect without --png\n"));
 }
 
+// Each sample has light that a float holds; their sum is more.
+TEST_F(CliRenderTest, PicturesThatAreNotFiniteAreNotWritten) {
+    json scene = json::parse(tiny_scene());
+    scene["extensionsUsed"] = {"KHR_lights_punctual"};
+    scene["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "directional"}, {"intensity", 3e38}}};
+    scene["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    put_content(folder / "a.gltf", scene.dump());
+    const CommandResult result = render({"-o", "a.exr"});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("values of the picture are more than 32-bit floats can hold, a.gltf; lower"));
+    EXPECT_EQ(names(), Names{"a.gltf"});
+}
+
 TEST_F(CliRenderTest, FullDiskLeavesNothing) {
     const CommandResult result =
         run_gnomon(folder, {"render", "a.gltf", "-o", "a.exr", "--size=256x256", "--spp=1", "--quiet"}, [] {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <gnomon/version.hpp>
 #include <nlohmann/json.hpp>
 
@@ -78,6 +79,18 @@ TEST_F(CliTest, UsageErrorsAreOneLineAndExitWith2) {
                                                {"render", "a.gltf", "-o", "a.png"},
                                                {"render", "a.gltf", "-o", "a.exr", "--frames", "0-1"},
                                                {"render", "a.gltf", "-o", "####.exr", "--frames", "0-1", "--shutter", "0:1"},
+                                               {"render", "a.gltf", "-o", ""},
+                                               {"render", "a.gltf", "-o", "a.exr", "--png", ""},
+                                               {"render", "a.gltf", "-o", "a.exr", "--json", ""},
+                                               {"render", "a.gltf", "-o", "a.exr", "--camera", ""},
+                                               {"render", "a.gltf", "-o", "a.exr", "--device", ""},
+                                               {"render", "a.gltf", "-o", "a.exr", "--animation", ""},
+                                               {"render", "a.gltf", "-o", "####.exr", "--frames", "0-4294967295"},
+                                               {"info", "a.gltf", "--json", ""},
+                                               {"devices", "--json", ""},
+                                               {"compare", "a.exr", "b.exr", "--diff", ""},
+                                               {"compare", "a.exr", "b.exr", "--again", ""},
+                                               {"compare", "a.exr", "b.exr", "--channels", ""},
                                                {"compare", "a.exr"},
                                                {"compare", "a.exr", "b.exr", "--metric=vmaf"},
                                                {"compare", "a.exr", "b.exr", "--threshold=-1"},
@@ -121,6 +134,32 @@ TEST_F(CliTest, MissingSceneExitsWith3) {
 }
 
 TEST_F(CliTest, ErrorsStayOnOneLineWhateverTheFileIsCalled) { EXPECT_THAT(run({"info", "two\nlines.glb"}).err, IsOneError()); }
+
+/// Lines of printable ASCII.
+MATCHER(IsPlainText, "") {
+    return std::all_of(arg.begin(), arg.end(), [](unsigned char c) { return c == '\n' || (c >= ' ' && c < 0x7f); });
+}
+
+TEST_F(CliTest, WhatNamesHoldDoesNotReachTheTerminal) {
+    const std::string name =
+        "\x1b[2J\x1b]0;title\x07two\nlines\xc2\x9b"
+        "1m";
+    json scene = json::parse(tiny_scene());
+    scene["nodes"][0].update({{"name", name}, {"camera", 0}});
+    scene["cameras"] = {{{"name", name}, {"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 0.1}}}}};
+    scene["materials"] = {{{"name", name}, {"alphaMode", "BLEND"}}};
+    scene["extensionsUsed"] = {"EXT_" + name};
+    put_content(folder / "a.gltf", scene.dump());
+    const CommandResult text = run({"info", "a.gltf"});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_THAT(text.out, AllOf(IsPlainText(), HasSubstr("'\\x1b[2J\\x1b]0;title\\x07two\\nlines\\xc2\\x9b1m'")));
+    EXPECT_EQ(json::parse(run({"info", "a.gltf", "--json=-"}).out)["cameras"][0]["name"], name);
+    const CommandResult render = run({"render", "a.gltf", "-o", "a.exr", "--camera", "none"});
+    EXPECT_EQ(render.exit_code, 2);
+    EXPECT_THAT(render.err, AllOf(IsPlainText(), HasSubstr("alpha blending is ignored"), HasSubstr("\\x1b[2J")));
+    EXPECT_THAT(run({"info", name + ".glb"}).err, AllOf(IsPlainText(), IsOneError()));
+    EXPECT_THAT(run({name}).err, AllOf(IsPlainText(), IsOneError()));
+}
 
 TEST_F(CliTest, InfoAsJson) {
     put_content(folder / "a.gltf", tiny_scene());

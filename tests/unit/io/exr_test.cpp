@@ -7,8 +7,10 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -25,6 +27,19 @@ std::vector<uint32_t> bits_of(const std::vector<float>& values) {
     std::vector<uint32_t> bits;
     for (const float value : values) bits.push_back(std::bit_cast<uint32_t>(value));
     return bits;
+}
+
+/// From now on this process has so many bytes at most. Gives what it had.
+rlimit limit_memory(uint64_t bytes) {
+    rlimit before{};
+    getrlimit(RLIMIT_AS, &before);
+#if !defined(__SANITIZE_ADDRESS__)  // Whose shadow memory needs more than any limit.
+    const rlimit limit{bytes, before.rlim_max};
+    setrlimit(RLIMIT_AS, &limit);
+#else
+    (void)bytes;
+#endif
+    return before;
 }
 
 std::vector<Channel> some_channels() {
@@ -102,6 +117,36 @@ TEST_F(ExrTest, SubsampledChannelsAreRefused) {
         file.writePixels(4);
     }
     EXPECT_GNOMON_ERROR(io::read_exr(folder / "a.exr"), ErrorKind::input, "BY is subsampled");
+}
+
+// The file of a small image whose header says that its data window ends elsewhere.
+std::string with_window(std::string file, int32_t last_x, int32_t last_y) {
+    const std::string name("dataWindow\0box2i\0", 17);
+    const size_t at = file.find(name) + name.size() + 4 + 8;  // Behind the size, and the window's first pixel.
+    std::memcpy(file.data() + at, &last_x, 4);
+    std::memcpy(file.data() + at + 4, &last_y, 4);
+    return file;
+}
+
+TEST_F(ExrTest, HeadersThatPromiseTooMuchAreErrorsBeforeMemoryIsTaken) {
+    // Noise, so that the file could be that of a larger image by its size.
+    Channel noise{"R", {}};
+    uint32_t state = 1;
+    for (int i = 0; i < 256 * 256; ++i) noise.values.push_back(static_cast<float>(state = state * 1664525u + 1013904223u));
+    io::write_exr(folder / "a.exr", 256, 256, std::vector{noise}, {});
+    const std::string whole = content_of(folder / "a.exr");
+    for (const auto& [x, y, text] : std::vector<std::tuple<int, int, const char*>>{{32767, 32767, "maximum"},
+                                                                                   {255, 1 << 30, "data window"},
+                                                                                   {1 << 30, 255, "data window"},
+                                                                                   {16383, 16383, "promises more pixels"},
+                                                                                   {255, 511, "wide.exr"}}) {
+        put_content(folder / "wide.exr", with_window(whole, x, y));
+        const rlimit before = limit_memory(uint64_t{1} << 30);
+        EXPECT_GNOMON_ERROR(io::read_exr(folder / "wide.exr"), ErrorKind::input, text);
+        setrlimit(RLIMIT_AS, &before);
+    }
+    put_content(folder / "same.exr", with_window(whole, 255, 255));
+    EXPECT_EQ(io::read_exr(folder / "same.exr").channels[0].values, noise.values);
 }
 
 TEST_F(ExrTest, MissingAndForeignFilesAreErrors) {

@@ -64,7 +64,9 @@ TEST(Options, Frames) {
     EXPECT_EQ(range.first, 3u);
     EXPECT_EQ(range.last, 47u);
     EXPECT_EQ(cli::parse_frames("5-5", "--frames").last, 5u);
-    expect_refused(cli::parse_frames, {"", "-", "5", "5-", "-5", "7-3", "0-4294967296", "a-b", "1-2-3", "1.5-2"});
+    EXPECT_EQ(cli::parse_frames("4294867296-4294967295", "--frames").last, 4294967295u);
+    expect_refused(cli::parse_frames,
+                   {"", "-", "5", "5-", "-5", "7-3", "0-100000", "0-4294967295", "0-4294967296", "a-b", "1-2-3", "1.5-2"});
 }
 
 TEST(Options, Bytes) {

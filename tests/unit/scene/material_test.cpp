@@ -157,6 +157,31 @@ TEST(Material, HugeImagesAreErrors) {
     EXPECT_THAT(gltf.error(), HasSubstr("cannot be decoded"));
 }
 
+// A few hundred bytes would be decoded to grey texels that take gigabytes.
+TEST(Material, HeadersOfImagesThatPromiseTooMuchAreErrors) {
+    std::vector<uint8_t> jpeg = {0xff, 0xd8, 0xff, 0xc0, 0, 11, 8, 0x20, 0, 0x20, 0, 1, 1, 0x11, 0};  // 8192 x 8192, grey.
+    jpeg.resize(722);
+    std::vector<uint8_t> png = kPng;
+    png[18] = png[22] = 0x20;
+    Gltf gltf;
+    with_texture(gltf).doc["images"][0] = {{"uri", "wood.png"}};
+    for (const std::vector<uint8_t>& file : {jpeg, png}) {
+        gltf.folder.write("wood.png", std::string(file.begin(), file.end()));
+        EXPECT_THAT(gltf.error(), HasSubstr("more than the file can hold"));
+    }
+}
+
+TEST(Material, ColoursOutsideZeroToOneAreClampedWithAWarning) {
+    Gltf gltf;
+    with_texture(gltf).doc["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {-1, 3e38, 0.5, 1};
+    const Scene scene = gltf.load();
+    EXPECT_EQ(scene.materials[0].base_color, glm::vec4(0, 1, 0.5, 1));
+    EXPECT_THAT(scene.warnings, has_warning("base colour factors outside 0 to 1 are clamped: materials 0 'Floor'"));
+    gltf.doc["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][1] = 1e39;
+    EXPECT_THAT(gltf.error(), HasSubstr("larger than a 32-bit float can hold"));
+    EXPECT_THAT(gltf.error(), HasSubstr("/materials/0/pbrMetallicRoughness/baseColorFactor/1"));
+}
+
 TEST(Material, IndicesOutOfRangeAreErrors) {
     Gltf gltf;
     with_texture(gltf).doc["textures"][0]["source"] = 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nodes: transforms, hierarchy, scenes, and the cameras and lights that they carry.
+#include <chrono>
 #include <numbers>
 
 #include "gltf_builder.hpp"
@@ -199,6 +200,38 @@ Rigid camera_under(const json& parent, const json& node = json::object()) {
     gltf.add("nodes", parent);
     gltf.doc["nodes"][1]["children"] = {0};
     return pose_at(gltf.load(), 0).cameras[0];
+}
+
+TEST(Node, NumbersBeyond32BitFloatsAreErrors) {
+    Gltf gltf;
+    gltf.add_triangle();
+    gltf.doc["extensionsUsed"] = {"KHR_lights_punctual"};
+    json& light = gltf.doc["extensions"]["KHR_lights_punctual"]["lights"][0];
+    for (const json& broken : {json{{"intensity", 1e39}}, json{{"color", {1, 1e39, 1}}}, json{{"range", 1e39}},
+                               json{{"intensity", 1e30}, {"color", {1e10, 1, 1}}}}) {
+        light = {{"type", "directional"}};
+        light.update(broken);
+        EXPECT_THAT(gltf.error(), testing::HasSubstr("larger than a 32-bit float can hold")) << broken;
+    }
+    light = {{"type", "directional"}, {"intensity", 1e37}};
+    gltf.doc["nodes"][0]["translation"] = {0, -1e39, 0};
+    EXPECT_THAT(gltf.error(), testing::HasSubstr("/nodes/0/translation/1"));
+}
+
+// Walked up from each camera, this would take a minute.
+TEST(Node, CamerasInALongChainWithoutScale) {
+    constexpr int kNodes = 100'000;
+    Gltf gltf;
+    gltf.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}});
+    for (int n = 0; n < kNodes; ++n) {
+        json node = {{"camera", 0}, {"scale", {0, 0, 0}}};
+        if (n + 1 < kNodes) node["children"] = {n + 1};
+        gltf.doc["nodes"].push_back(std::move(node));
+    }
+    const Scene scene = gltf.load();
+    const auto start = std::chrono::steady_clock::now();
+    EXPECT_EQ(pose_at(scene, 0.0).cameras.size(), size_t{kNodes});
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
 }
 
 TEST(Node, RigidMotionsHaveNoScale) {
