@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 
 #include "end_to_end/moving_triangles.hpp"
 #include "math/sample.h"
