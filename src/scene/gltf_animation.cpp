@@ -75,7 +75,8 @@ private:
         std::set<std::pair<int, Rig::Path>> targets;
         for (const tinygltf::AnimationChannel& channel : from.channels) {
             const std::optional<Rig::Path> path = path_of(channel.target_path);
-            if (!path || !targets.insert({channel.target_node, *path}).second) continue;
+            // tinygltf leaves out channels without a node up to 2.8 and gives them node -1 from 2.9 on.
+            if (!path || channel.target_node < 0 || !targets.insert({channel.target_node, *path}).second) continue;
             animation.channels.push_back({static_cast<uint32_t>(channel.sampler), channel.target_node, *path});
             const std::vector<float>& times = rig_.tracks[animation.samplers[static_cast<size_t>(channel.sampler)].times];
             info.start = std::min(info.start, double{times.front()});

@@ -68,7 +68,7 @@ Agreement agreement_of(const PosedScene& posed, const RenderSettings& settings, 
                            judge);
 }
 
-const std::vector<float>& channel(const Frame& frame, const std::string& name) {
+const std::vector<float>& channel(const Frame& frame, std::string_view name) {
     for (const Channel& c : frame.channels) {
         if (c.name == name) return c.values;
     }

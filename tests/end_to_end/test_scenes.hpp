@@ -7,6 +7,7 @@
 #include <gnomon/render.hpp>
 #include <gnomon/scene.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "agreement.hpp"
@@ -41,7 +42,7 @@ Frame sampled_frame(const PosedScene& posed, RenderSettings settings);
 Agreement agreement_of(const PosedScene& posed, const RenderSettings& settings, const oracle::Rounding& rounding = {});
 
 /// The values of a channel. A test fails where the frame has none of this name.
-const std::vector<float>& channel(const Frame& frame, const std::string& name);
+const std::vector<float>& channel(const Frame& frame, std::string_view name);
 
 /// Of all bits of all channels.
 uint64_t hash_of(const Frame& frame);

@@ -26,7 +26,7 @@ TEST(Validation, AMissingBarrierIsSeen) {
     Device device("", true);
     const Buffer values = device.allocate("values", 64);
     const VkBuffer handle = values.impl()->memory.buffer.get();
-    expect_error(ErrorKind::internal, {"SYNC-HAZARD-WRITE-AFTER-WRITE", "values"}, [&] {
+    expect_error(ErrorKind::internal, {"WRITE_AFTER_WRITE", "values"}, [&] {
         device.impl()->run_once([&](VkCommandBuffer commands) {
             vkCmdFillBuffer(commands, handle, 0, 64, 1);
             vkCmdFillBuffer(commands, handle, 0, 64, 2);
