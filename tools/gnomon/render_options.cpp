@@ -34,8 +34,8 @@ void add_parameters(CLI::App& command, std::map<std::string, double>& values) {
     }
     for (const auto& [name, p] : all) {
         add_parsed(command, "--" + name, "X", "", p.summary + " [" + p.initial + "]",
-                   [&values, p = p](const std::string& text, const std::string& option) {
-                       values[p.name] = parse_number(text, option, p.least, p.most);
+                   [&values, parameter = p](const std::string& text, const std::string& option) {
+                       values[parameter.name] = parse_number(text, option, parameter.least, parameter.most);
                    })
             ->group("Method, see 'gnomon methods'");
     }

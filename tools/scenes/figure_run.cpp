@@ -14,7 +14,7 @@ constexpr double kStance = 0.3;       // Share of the cycle in which a foot is o
 constexpr double kRise = 0.05;        // Of the lower foot between two steps, metres.
 constexpr double kFirstPhase = 0.36;  // Of the right foot at 0 s: it has pushed off, and no foot is on the ground.
 
-constexpr Vec3 kX{1, 0, 0}, kY{0, 1, 0};
+constexpr Vec3 kY{0, 1, 0};
 
 /// A smooth periodic value (Catmull-Rom) through ten values at equal phases.
 double cyclic(const std::array<double, 10>& values, double phase) {
