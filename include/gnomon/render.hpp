@@ -34,7 +34,8 @@ struct RenderSettings {
     /// Of closed meshes list one side only, and nothing that shadows nothing, in views of suns that are fitted to what is left,
     /// where the picture does not depend on what is listed (method exact). For comparison.
     bool closed_meshes = true;
-    /// List what stands still in a view once, not in each cell of time: the camera's, and lights' of method exact. For comparison.
+    /// List what stands still in a view once, not in each cell of time: the camera's, and lights' of method exact. For
+    /// comparison.
     bool static_once = true;
     uint64_t memory_budget = 0;      ///< Most bytes of device memory; 0: half the device's heap.
     bool keep_samples = false;       ///< Fill Frame::samples.

@@ -2,7 +2,6 @@
 // Methods compared after the same seconds and at the same error, from several renders of each.
 #include <spdlog/fmt/fmt.h>
 
-
 #include "command.hpp"
 #include "compare.hpp"
 #include "render_curves.hpp"
