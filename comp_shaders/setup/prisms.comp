@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: for each prism in one cell of time: the tiles of the window that it may touch and the orientations in which it may be seen.
-//          kCasting: only those in which it may shadow something.
+//          kCasting: only those in which it may shadow something. kSampled: of small ones only the tiles with samples that they may cover.
 // Reads:   triangles, raster_vertices, shells, closed, positions, still
 // Writes:  Rects of the cell (shared/rect.h), BlockCounts (blocks that bin/large will need, by parts of the triangles)
 // Grid:    one invocation per triangle
@@ -14,6 +14,7 @@
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kCasting = false;
 layout(constant_id = 1) const uint kPart = kWholeScene;
+layout(constant_id = 2) const bool kSampled = false;
 READ_UVEC4(0, triangles)
 READ_VEC4(1, raster_vertices)
 READ_UINT(4, shells)
@@ -26,6 +27,7 @@ layout(push_constant, scalar) uniform Push { PrismParams params; };
 #include "common/triangle.glsl"
 #include "common/cell.glsl"
 #include "common/casting.glsl"
+#include "common/sampled.glsl"
 
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -49,6 +51,14 @@ void main() {
     vec2 window_first = vec2(params.window_first), window_last = vec2(params.window_last);
     vec2 first = in_front ? floor((box.lower + half_size) * (1.0 / float(kTileSize))) : window_first;
     vec2 last = in_front ? floor((box.upper + half_size) * (1.0 / float(kTileSize))) : window_last;
+    if (kSampled && seen != 0u) {
+        MetPixels met = met_pixels(m, grid, params.cell);
+        if (met.known) {
+            first = vec2(met.first / kTileSize);
+            last = vec2(met.last / kTileSize);
+            if (met.first.x > met.last.x) seen = 0u;
+        }
+    }
     // The last tiles may reach beyond the image.
     bool beside = !in_front && beside_image(c, half_size + float(kTileSize), time_slack(grid.cell_count));
     bool visible = seen != 0u && highest_w > 0.0 && !beside && first.x <= window_last.x && first.y <= window_last.y && last.x >= window_first.x && last.y >= window_first.y;

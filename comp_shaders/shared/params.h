@@ -106,6 +106,9 @@ struct PrismParams {
     uvec2 window_last;
     vec3 box_lower;  // Of the scene, at all keys.
     vec3 box_upper;
+    uint spp;  // Where only samples are asked for: math/sample.h
+    float stratum_length;
+    uint seed;
 };
 
 struct BinParams {

@@ -113,6 +113,8 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
     const bool apart =
         settings.static_once && view.still() && worth_apart(still_triangles, geometry.scene->triangle_count, cells);
     Bins bins = project_prisms(device, programs, geometry, view, cells, apart ? Part::apart : Part::whole);
+    if (worth_sampling(geometry.scene->triangle_count, uint64_t(view.width) * view.height))
+        bins.lattice = Lattice{settings.spp, settings.seed};
     // What there is to share out: a light's vertices have to fit in as well.
     const uint64_t light_bytes = scene.lights.empty() ? 0 : bins.raster_vertices.bytes();
     const auto left = [&] { return device.budget_left() - std::min(device.budget_left(), light_bytes); };

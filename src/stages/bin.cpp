@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "math/orientation.h"
+#include "math/sample.h"
 #include "shared/rect.h"
 #include "stages/grid.hpp"
 #include "stages/scan.hpp"
@@ -101,9 +102,11 @@ private:
     void set_up(const Run& chunk) {
         gpu::Recorder& recorder = device_.recorder();
         const uint32_t cells = bins_.tile_lists();
+        const Lattice lattice = bins_.lattice.value_or(Lattice{});
         recorder.fill("setup/prisms", block_counts_, 0);
         for (uint32_t cell = 0; cell < cells; ++cell) {
-            recorder.dispatch("setup/prisms", programs_.get("setup/prisms", {casting_, part_of(cell)}),
+            recorder.dispatch("setup/prisms",
+                              programs_.get("setup/prisms", {casting_, part_of(cell), bins_.lattice.has_value()}),
                               bindings({{"triangles", &geometry_.scene->triangles, Texel::rgba32_uint},
                                         {"raster_vertices", &bins_.raster_vertices, Texel::rgba32_float},
                                         {"shells", &geometry_.scene->shells, Texel::r32_uint},
@@ -113,7 +116,8 @@ private:
                                         {"Rects", &rects_, {}, rect_bytes(cell, 0), rect_bytes(0, chunk_)},
                                         {"BlockCounts", &block_counts_}}),
                               shared::PrismParams{bins_.grid, cell, chunk.first, chunk.count, part_log2_, cell * parts_,
-                                                  rect_.first_tile, rect_.last_tile, geometry_.box.lower, geometry_.box.upper},
+                                                  rect_.first_tile, rect_.last_tile, geometry_.box.lower, geometry_.box.upper,
+                                                  lattice.spp, shared::stratum_length(lattice.spp), lattice.seed},
                               groups_of(chunk.count, 64));
         }
         blocks_of_chunk_ = recorder.download(block_counts_, 0, uint64_t(cells) * parts_ * 4);

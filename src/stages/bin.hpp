@@ -2,6 +2,8 @@
 // Setup and binning: the prisms of a view, listed per tile and cell of time. The same code serves camera and lights.
 #pragma once
 
+#include <optional>
+
 #include "stages/pose.hpp"
 #include "stages/window.hpp"
 
@@ -15,12 +17,20 @@ enum class Part : uint32_t {
     apart,  ///< What moves in its cells; what stands still once, in a list behind those of a tile's cells.
 };
 
+/// The samples of all pixels (math/sample.h).
+struct Lattice {
+    uint32_t spp = 1;
+    uint32_t seed = 0;
+};
+
 /// The prisms of one view, listed in the tiles of a window. List of tile and cell: entries [offsets[i], offsets[i + 1]), i =
 /// (tile - window.tile_first) * tile_lists() + cell. An entry is a triangle, with kReversed where its orientation is reversed.
 struct Bins {
     shared::ViewGrid grid;
     Part part = Part::whole;
     Window window;
+    /// The samples that alone are looked up, where there are such: what is so small that none may meet it is not listed.
+    std::optional<Lattice> lattice;
     gpu::Buffer raster_vertices;  ///< vec4 per key and vertex, in the view's raster space.
     gpu::Buffer offsets;
     gpu::Buffer entries;

@@ -33,4 +33,6 @@ bool worth_apart(uint64_t still_triangles, uint64_t triangles, uint32_t cells) {
     return still_triangles * (cells - 1) > triangles;
 }
 
+bool worth_sampling(uint64_t triangles, uint64_t pixels) { return 2 * triangles >= pixels; }
+
 }  // namespace gnomon

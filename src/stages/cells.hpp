@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cells of time: into how many equal parts of the shutter a view's prisms are listed.
+// Cells of time: into how many equal parts of the shutter a view's prisms are listed, and which of them.
 #pragma once
 
 #include <cstdint>
@@ -16,5 +16,9 @@ uint32_t light_cells(uint32_t segments, bool still);
 /// Whether so many triangles that stand still are better listed apart, once and not in each cell: all triangles are then gone
 /// through once more.
 bool worth_apart(uint64_t still_triangles, uint64_t triangles, uint32_t cells);
+
+/// Whether it pays to look at the samples of a view's pixels before small prisms are listed: where there are many triangles for
+/// its pixels, most are small.
+bool worth_sampling(uint64_t triangles, uint64_t pixels);
 
 }  // namespace gnomon

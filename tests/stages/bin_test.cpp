@@ -9,6 +9,7 @@
 #include <set>
 
 #include "lists.hpp"
+#include "math/sample.h"
 #include "soup.hpp"
 #include "stage_test.hpp"
 
@@ -119,6 +120,56 @@ TEST_F(BinTest, WhatFacesTheEyeComesFirst) {
         for (auto& list : *all) std::sort(list.begin(), list.end());
     }
     EXPECT_EQ(found, as_swept);
+}
+
+// Of small prisms those that a sample meets, in its tile, and hardly any other.
+TEST_F(BinTest, WhatNoSampleMeetsIsNotListed) {
+    std::mt19937 random(19);
+    std::uniform_real_distribution<float> x(-37.0f, 37.0f), y(-20.0f, 20.0f), corner(-0.25f, 0.25f), depth(1.0f, 5.0f);
+    Soup soup(1, 75, 41, false);
+    for (int i = 0; i < 600; ++i) {
+        const glm::vec2 from(x(random), y(random)), to = i % 2 == 0 ? from : glm::vec2(x(random), y(random));
+        const glm::vec2 w(depth(random), depth(random));
+        oracle::Prism prism;
+        for (int k = 0; k < 3; ++k) {
+            const glm::vec2 at(corner(random), corner(random));
+            prism.start[k] = {(from + at) * w.x, -1.0f, w.x};
+            prism.end[k] = {(to + at) * w.y, -1.0f, w.y};
+        }
+        soup.add_prism(prism);
+    }
+    const Lattice lattice{3, 4};
+    const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
+    for (uint32_t cells : {1u, 2u, 3u}) {
+        Bins bins = project_prisms(device(), programs(), geometry, soup.view(), cells);
+        const Window whole{0, tiles_across(soup.view()) * tiles_down(soup.view())};
+        list_prisms(device(), programs(), geometry, soup.view(), whole, Listing::swept, bins);
+        const uint32_t swept = bins.entry_count;
+        bins.lattice = lattice;
+        list_prisms(device(), programs(), geometry, soup.view(), whole, Listing::swept, bins);
+        const auto lists = read_bins(device(), bins);
+        std::set<std::pair<uint32_t, uint32_t>> met;  // List and entry.
+        for (uint32_t px_y = 0; px_y < soup.height; ++px_y) {
+            for (uint32_t px_x = 0; px_x < soup.width; ++px_x) {
+                const uint32_t tile = px_y / 8 * bins.grid.tiles_x + px_x / 8;
+                for (uint32_t s = 0; s < lattice.spp; ++s) {
+                    const glm::vec3 p = shared::sample_point(shared::pixel_hash(px_x, px_y, lattice.seed), px_x, px_y, s,
+                                                             shared::stratum_length(lattice.spp));
+                    const uint32_t cell = shared::cell_of(p.z, cells);
+                    for (const oracle::Seen& seen : seen_at(soup.all_triangles(0), p.x - 37.5, p.y - 20.5, p.z, -1e9, 1e9))
+                        met.insert({tile * cells + cell, seen.triangle | (seen.surface.positive ? 0u : shared::kReversed)});
+                }
+            }
+        }
+        EXPECT_GT(met.size(), 20u);
+        uint32_t missed = 0;
+        for (const auto& [list, entry] : met)
+            missed += std::find(lists[list].begin(), lists[list].end(), entry) == lists[list].end() ? 1 : 0;
+        EXPECT_EQ(missed, 0u);
+        std::printf("%u cells: %u entries, of which samples meet %zu; swept %u\n", cells, bins.entry_count, met.size(), swept);
+        EXPECT_LT(bins.entry_count, 8 * met.size());
+        EXPECT_LT(5 * bins.entry_count, swept);
+    }
 }
 
 // Of a shell that counts as closed what looks away from the eye is listed where it is listed anyway, and nothing else; of all

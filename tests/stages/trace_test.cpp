@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The nearest triangle of every sample: against the exact test in float over all triangles, bit for bit, and against the oracle
 // in double.
+#include <algorithm>
+#include <array>
 #include <map>
 
 #include "math/sample.h"
@@ -41,6 +43,52 @@ TEST_F(TraceTest, FindsTheNearestTriangle) {
             const std::vector<uint32_t> found = run(soup, sampling);
             expect_same(found, trace_in_float(soup, sampling));
             EXPECT_LE(count_differences_from_oracle(soup, sampling, found), found.size() / 500);
+        }
+    }
+}
+
+// Triangles much smaller than a pixel, some of which cross the image or pass the eye: they are listed only where a sample meets
+// them.
+TEST_F(TraceTest, SmallAndFast) {
+    std::mt19937 random(27);
+    std::uniform_real_distribution<float> place(-1.2f, 1.2f), corner(-0.6f, 0.6f), depth(0.2f, 9.0f);
+    const struct {
+        uint32_t width, height, segments, cells, spp;
+        bool apart = false;
+    } cases[] = {{40, 24, 1, 1, 1},  {64, 40, 1, 8, 8}, {33, 17, 1, 2, 16},      {40, 24, 1, 4, 7},
+                 {31, 23, 3, 9, 19}, {20, 20, 2, 8, 3}, {40, 24, 1, 4, 4, true}, {31, 23, 3, 9, 19, true}};
+    for (const auto& c : cases) {
+        for (bool orthographic : {false, true}) {
+            SCOPED_TRACE(testing::Message()
+                         << c.width << "x" << c.height << ", " << c.segments << " segments, " << c.cells << " cells, " << c.spp
+                         << " samples, orthographic " << orthographic << ", apart " << c.apart);
+            Soup soup(c.segments, c.width, c.height, orthographic);
+            const glm::vec2 half(0.5f * float(c.width), 0.5f * float(c.height));
+            for (uint32_t i = 0; i < 600; ++i) {
+                const float speed = std::array{0.0f, 0.05f, 1.0f}[i % 3];
+                const glm::vec3 from(place(random) * half.x, place(random) * half.y, depth(random));
+                glm::vec3 to = glm::mix(from, glm::vec3(place(random) * half.x, place(random) * half.y, depth(random)), speed);
+                if (i % 30 == 2) to.z = -to.z;
+                std::vector<std::vector<glm::vec4>> corners(3);
+                for (auto& keys : corners) {
+                    const glm::vec2 at(corner(random), corner(random));
+                    for (uint32_t k = 0; k <= c.segments; ++k) {
+                        const glm::vec3 p = glm::mix(from, to, float(k) / float(c.segments));
+                        keys.push_back(orthographic ? glm::vec4(glm::vec2(p) + at, p.z, 1.0f)
+                                                    : glm::vec4((glm::vec2(p) + at) * p.z, -1.0f, p.z));
+                    }
+                }
+                const uint32_t first = soup.add_vertex(corners[0]);
+                soup.add_vertex(corners[1]);
+                soup.add_vertex(corners[2]);
+                soup.triangles.emplace_back(first, first + 1, first + 2);
+            }
+            const Sampling sampling{c.spp, 9u, c.cells, 1u << 20, c.apart ? Part::apart : Part::whole};
+            const std::vector<uint32_t> found = run(soup, sampling);
+            expect_same(found, trace_in_float(soup, sampling));
+            EXPECT_LE(count_differences_from_oracle(soup, sampling, found), found.size() / 500);
+            EXPECT_GT(found.size() - static_cast<size_t>(std::count(found.begin(), found.end(), shared::kNone)),
+                      found.size() / 100);
         }
     }
 }

@@ -38,7 +38,9 @@ std::vector<uint32_t> trace(gpu::Device& device, Programs& programs, const Soup&
                             uint64_t* tests) {
     const Geometry geometry = pose_geometry(device, programs, soup.scene(), soup.poses());
     const View view = soup.view();
-    const Bins bins = bin_prisms(device, programs, geometry, view, sampling.cells, Listing::facing_first, sampling.part);
+    Bins bins = project_prisms(device, programs, geometry, view, sampling.cells, sampling.part);
+    bins.lattice = Lattice{sampling.spp, sampling.seed};
+    list_prisms(device, programs, geometry, view, {0, tiles_across(view) * tiles_down(view)}, Listing::facing_first, bins);
     const gpu::Buffer lights = gpu::upload_new(device, "lights", light_records(soup.scene(), soup.poses()));
     Sampler sampler(device, programs, geometry, view, bins, lights,
                     {.shadow_stage = "sample/shadow@array",
