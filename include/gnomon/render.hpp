@@ -124,7 +124,7 @@ struct DeviceDescription {
     uint64_t heap_bytes = 0;     ///< Of the largest heap that is the device's own: all buffers are in it.
     /// What gnomon cuts its work to, by name; names that end in _bytes have that unit. Empty of devices before Vulkan 1.3.
     std::vector<std::pair<std::string, uint64_t>> limits;
-    std::vector<std::string> faults;   ///< Known faults of its driver, all of which gnomon avoids.
+    std::vector<std::string> faults;   ///< Known faults of its driver, and how each is avoided.
     std::vector<std::string> missing;  ///< Required features that it lacks; empty: usable.
     bool chosen = false;               ///< What an empty choice would use.
 };

@@ -26,6 +26,9 @@ constexpr Fault kFaults[] = {
      "are tested at their top"},
     {VK_DRIVER_ID_MESA_LLVMPIPE, kNoneKnown,
      "an indirect dispatch begins where the dispatch before it did (seen on Mesa 22.3.6); an empty one goes before it"},
+    {VK_DRIVER_ID_MESA_LLVMPIPE, kNoneKnown,
+     "its cache gives code for one LP_NATIVE_VECTOR_WIDTH to another (seen on Mesa 22.3.6 and 25.0.7); give each width a "
+     "MESA_SHADER_CACHE_DIR of its own"},
     {VK_DRIVER_ID_NVIDIA_PROPRIETARY, kNoneKnown,
      "is no longer found after some thirty loads in a process (seen on 580); it is kept loaded"},
 };

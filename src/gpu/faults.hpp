@@ -9,7 +9,7 @@
 
 namespace gnomon::gpu {
 
-/// The known faults of a driver of this version (as the driver writes it), in words, each with how gnomon avoids it.
+/// The known faults of a driver of this version (as the driver writes it), in words, each with how it is avoided.
 std::vector<std::string> faults_of(VkDriverId driver, const std::string& version);
 
 }  // namespace gnomon::gpu

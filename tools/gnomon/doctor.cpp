@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <gnomon/error.hpp>
+#include <iostream>
 #include <memory>
 
 #include "command.hpp"
@@ -88,6 +89,7 @@ public:
     template <class Run>
     void check(const std::string& name, Run run) {
         if (exit_code() != kDone) return;
+        if (prints_) std::cout << fmt::format("{:<9} ", name) << std::flush;  // A driver may crash.
         Outcome outcome;
         try {
             outcome = run();
@@ -95,7 +97,7 @@ public:
             outcome = {error.what(), error.exit_code()};
         }
         const bool passed = outcome.exit_code == kDone;
-        if (prints_) print_line(fmt::format("{:<9} {:<7} {}", name, passed ? "ok" : "failed", outcome.text));
+        if (prints_) print_line(fmt::format("{:<7} {}", passed ? "ok" : "failed", outcome.text));
         if (!passed) spdlog::error("{} failed: {}", name, outcome.text);
         checks_.push_back({name, std::move(outcome)});
     }
@@ -129,7 +131,7 @@ int run_doctor(const DoctorOptions& options) {
     });
     doctor.check("driver", [&]() -> Outcome {
         const DeviceDescription& used = device->description();
-        return {fmt::format("{}, Vulkan {}; {} known faults, which gnomon avoids", used.driver, used.vulkan,
+        return {fmt::format("{}, Vulkan {}; {} known faults, see gnomon devices", used.driver, used.vulkan,
                             used.faults.empty() ? "no" : std::to_string(used.faults.size()))};
     });
     doctor.check("limits", [&] { return check_limits(device->description()); });
