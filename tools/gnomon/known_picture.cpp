@@ -15,7 +15,7 @@ struct Rectangle {
     double left, top, right, bottom;
 };
 
-constexpr uint32_t kSide = 48, kSpp = 16, kBlock = 8;
+constexpr uint32_t kSide = 48, kSpp = 64, kBlock = 8;
 constexpr double kHalf = 2.0;  ///< Half the picture's side, metres.
 constexpr double kCamera = 10.0, kHeight = 1.0;
 constexpr Rectangle kGround{-1.73, -1.61, 1.81, 1.67};
@@ -126,7 +126,7 @@ WorstMean compare_block(const Frame& frame, const std::vector<Finds>& finds, con
     const double pixels = static_cast<double>(side) * side;
     const double rounding = 1e-5 * *std::max_element(channel.values.begin(), channel.values.end());
     const double off = std::abs(sum - expected) / pixels - rounding, error = std::sqrt(variance) / pixels;
-    // Not what is off is what is right: NaN is not.
+    // Written so that NaN is wrong.
     const double standard_errors = off <= 0.0 ? 0.0 : error > 0.0 ? off / error : std::numeric_limits<double>::infinity();
     return {std::string(channel.name) + (channel.of_hits ? " * A" : ""),
             left,

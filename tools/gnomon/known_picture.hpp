@@ -16,7 +16,7 @@ struct KnownPicture {
 
     Scene scene;
     std::vector<Pose> poses;  ///< One segment.
-    RenderSettings settings;  ///< 48 x 48 pixels, 16 samples each.
+    RenderSettings settings;  ///< 48 x 48 pixels, 64 samples each.
 };
 
 /// The mean of a channel over some pixels that is furthest from what is right.

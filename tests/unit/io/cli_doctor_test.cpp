@@ -140,7 +140,7 @@ TEST_F(CliDoctorTest, FindsAPictureThatLosesSomeRanges) {
         broken_layout("vec4 layout_next(inout ListIterator it) { return fetch_ranges(it.x++ - range_base()); }",
                       "vec4 layout_next(inout ListIterator it) {\n"
                       "    const vec4 range = fetch_ranges(it.x++ - range_base());\n"
-                      "    return range.x > 0.9 ? vec4(2.0, 2.0, range.zw) : range;\n}"),
+                      "    return range.x > 0.7 ? vec4(2.0, 2.0, range.zw) : range;\n}"),
         "standard errors");
 }
 
