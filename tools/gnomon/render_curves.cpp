@@ -183,7 +183,7 @@ std::vector<ChannelCurves> render_curves(const CompareOptions& options) {
         if (const Render& first = renders.front().first; render.device != first.device)
             spdlog::warn("{} was rendered on {}, {} on {}: their seconds differ for that", first.json, first.device,
                          render.json, render.device);
-        else if (render.driver != first.driver)
+        else if (!render.driver.empty() && !first.driver.empty() && render.driver != first.driver)
             spdlog::warn("{} was rendered by the driver {}, {} by {}: their seconds differ for that", first.json, first.driver,
                          render.json, render.driver);
         const NamedImage image = image_of(render);
