@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace gnomon {
@@ -75,6 +76,7 @@ struct FrameStats {
     double longest_dispatch = 0;                   ///< Seconds of what ran longest as one.
     double wall_seconds = 0.0;
     std::string device;
+    std::string driver;  ///< Its name and version; empty of what has none.
 };
 
 struct Frame {
@@ -114,15 +116,24 @@ using Progress = std::function<bool(double)>;
 struct DeviceDescription {
     uint32_t index = 0;
     std::string name;
-    std::string type;  ///< "discrete", "integrated", "virtual", "cpu", "other"
-    std::string driver;
-    uint64_t heap_bytes = 0;
+    std::string type;            ///< "discrete", "integrated", "virtual", "cpu", "other"
+    std::string driver;          ///< Its name and version.
+    std::string driver_name;     ///< Empty of devices before Vulkan 1.3, as is the version.
+    std::string driver_version;  ///< As the driver writes it: "Mesa 22.3.6 (LLVM 15.0.6)".
+    std::string vulkan;          ///< The version of Vulkan: "1.3.230".
+    uint64_t heap_bytes = 0;     ///< Of the largest heap that is the device's own: all buffers are in it.
+    /// What gnomon cuts its work to, by name; names that end in _bytes have that unit. Empty of devices before Vulkan 1.3.
+    std::vector<std::pair<std::string, uint64_t>> limits;
+    std::vector<std::string> faults;   ///< Known faults of its driver, and how each is avoided.
     std::vector<std::string> missing;  ///< Required features that it lacks; empty: usable.
     bool chosen = false;               ///< What an empty choice would use.
 };
 
 /// All Vulkan devices of this machine. An empty list where there is no driver.
 std::vector<DeviceDescription> list_devices();
+
+/// What the Vulkan loader says against drivers and layers that it did not load, each once. Empty where nothing is wrong.
+std::vector<std::string> loader_errors();
 
 /// What of a scene does not move, on a renderer's device: for frames that differ in pose or settings alone. It refers to the
 /// scene, which must not change or go before it.
@@ -140,9 +151,9 @@ private:
 /// A Vulkan device with its programs. Construction is expensive, frames are not: keep one.
 class Renderer {
 public:
-    /// device: name (or part of it) or index; empty: the first hardware device, else a CPU. validate: with the Khronos
-    /// validation layer; any message then is an Error of ErrorKind::internal.
-    /// Errors: ErrorKind::no_device, naming what is missing.
+    /// device: name (or part of it), index, "cpu" or "gpu"; empty: the first hardware device, else a CPU. validate: with the
+    /// Khronos validation layer; any message then is an Error of ErrorKind::internal. Errors: ErrorKind::no_device, naming what
+    /// is missing.
     explicit Renderer(const std::string& device = "", bool validate = false);
     ~Renderer();
     Renderer(Renderer&&) noexcept;

@@ -2,11 +2,8 @@
 // The logical device: its queue, its limits, running command buffers, statistics.
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <limits>
-#include <thread>
 
-#include "gpu/limits.hpp"
 #include "gpu/recorder_impl.hpp"
 #include "gpu/vulkan.hpp"
 
@@ -100,37 +97,12 @@ Device::Impl::Impl(const std::string& choice, bool validate)
     vkGetDeviceQueue(device.get(), candidate.queue_family, 0, &queue);
     vkGetPhysicalDeviceMemoryProperties(candidate.physical, &memory_properties);
 
-    VkPhysicalDeviceMaintenance4Properties maintenance4{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES};
-    VkPhysicalDeviceMaintenance3Properties maintenance3{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
-                                                        .pNext = &maintenance4};
+    VkPhysicalDeviceMaintenance3Properties maintenance3{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES};
     VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &maintenance3};
     vkGetPhysicalDeviceProperties2(candidate.physical, &properties);
     vulkan_limits = properties.properties.limits;
     max_allocation_bytes = maintenance3.maxMemoryAllocationSize;
-    limits = {.heap_bytes = candidate.description.heap_bytes,
-              .max_buffer_bytes = std::min(maintenance3.maxMemoryAllocationSize, maintenance4.maxBufferSize),
-              .max_storage_range = vulkan_limits.maxStorageBufferRange,
-              .storage_alignment = vulkan_limits.minStorageBufferOffsetAlignment,
-              .max_texels = vulkan_limits.maxTexelBufferElements,
-              .texel_alignment = vulkan_limits.minTexelBufferOffsetAlignment,
-              .max_groups = std::min(vulkan_limits.maxComputeWorkGroupCount[0], vulkan_limits.maxComputeWorkGroupCount[1]),
-              .subgroup_size = candidate.subgroup.size,
-              .storage_buffers = vulkan_limits.maxPerStageDescriptorStorageBuffers,
-              .push_constant_bytes = vulkan_limits.maxPushConstantsSize,
-              .timestamps = candidate.timestamp_bits > 0,
-              .is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU};
-    if (limits.is_cpu) limits.threads = std::max(1u, std::thread::hardware_concurrency());
-
-    // Cached, because the host reads results: uncached device memory behind a bus is read far slower than it is copied. And in
-    // the largest heap, because some devices show the host a small window only.
-    constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                                VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    for (uint32_t i = 0; i < memory_properties.memoryTypeCount; ++i) {
-        const VkMemoryType& type = memory_properties.memoryTypes[i];
-        const bool large = memory_properties.memoryHeaps[type.heapIndex].size == limits.heap_bytes;
-        if (large && (type.propertyFlags & kMappable) == kMappable) limits.mapped = true;
-    }
-    if (const char* lower = std::getenv("GNOMON_LIMITS")) limits = lower_limits(limits, lower);
+    limits = candidate.limits;
     pace = Pace(1e-3 * limits.dispatch_ms);
 
     const VkFenceCreateInfo fence_info{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};

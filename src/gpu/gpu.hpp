@@ -34,6 +34,7 @@ struct Limits {
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
     uint32_t subgroup_size = 1;      ///< Of all pipelines; a device that cannot be asked for one size may use others.
     uint32_t crew = 8;               ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.
+    bool shuffles = true;            ///< Devices without them are not used.
     uint32_t storage_buffers = 4;    ///< Of one shader.
     uint32_t push_constant_bytes = 128;
     uint32_t dispatch_ms = 50;  ///< Milliseconds; what is expected to take longer is cut into pieces. Ten times less than is
@@ -118,6 +119,7 @@ struct StageTime {
 };
 
 std::vector<DeviceDescription> list_devices();
+std::vector<std::string> loader_errors();
 
 class Recorder;
 
@@ -125,10 +127,10 @@ class Device {
 public:
     /// See gnomon::Renderer. With validate, every message of the layer (synchronization validation included) is collected, and
     /// thrown as ErrorKind::internal from the next submit; also see validation_messages().
-    /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if the device had no more:
-    /// "texels=65536,texel_reads=0,crew=2,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,
+    /// For tests, the environment variable GNOMON_LIMITS lowers limits, as if devices had no more:
+    /// "texels=65536,texel_reads=0,crew=2,shuffles=0,storage_range=16777216,storage_buffers=4,push_constants=128,groups=65535,
     /// buffer=67108864,dispatch_ms=1,timestamps=0,mapped=0", in any number and order. Errors: ErrorKind::usage for others, and
-    /// for values above the device's own.
+    /// for values above a device's own; of list_devices, too.
     Device(const std::string& choice, bool validate);
     ~Device();
     Device(const Device&) = delete;

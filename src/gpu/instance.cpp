@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <cstring>
-#include <iterator>
 
+#include "gpu/faults.hpp"
+#include "gpu/limits.hpp"
 #include "gpu/vulkan.hpp"
 
 namespace gnomon::gpu {
@@ -69,7 +71,8 @@ int type_rank(const std::string& type) {
 }
 
 std::string version_text(uint32_t version) {
-    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version));
+    return std::to_string(VK_API_VERSION_MAJOR(version)) + "." + std::to_string(VK_API_VERSION_MINOR(version)) + "." +
+           std::to_string(VK_API_VERSION_PATCH(version));
 }
 
 constexpr VkApplicationInfo kApplication{
@@ -90,26 +93,6 @@ std::string join(const std::vector<std::string>& parts) {
     std::string text;
     for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
     return text;
-}
-
-// What the loader says against a driver or a layer that it did not load; it tells nothing by the result: one manifest that it
-// cannot read, whatever others there are, is "out of host memory" to loader 1.3.239.
-std::vector<std::string> loader_errors() {
-    std::vector<std::string> errors;
-    const VkDebugUtilsMessengerCreateInfoEXT listener{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-                                                      .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-                                                      .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT,
-                                                      .pfnUserCallback = collect_message,
-                                                      .pUserData = &errors};
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
-                                    .pNext = &listener,
-                                    .pApplicationInfo = &kApplication,
-                                    .enabledExtensionCount = 1,
-                                    .ppEnabledExtensionNames = &extension};
-    VkInstance instance = VK_NULL_HANDLE;
-    if (vkCreateInstance(&info, nullptr, &instance) == VK_SUCCESS) vkDestroyInstance(instance, nullptr);
-    return errors;
 }
 
 // The first queue family with compute, if possible one with timestamps.
@@ -205,7 +188,8 @@ void find_extensions(Candidate& candidate) {
     }
 }
 
-void find_missing_subgroup_operations(const VkPhysicalDeviceSubgroupProperties& subgroup, std::vector<std::string>& missing) {
+void find_missing_subgroup_operations(const VkPhysicalDeviceSubgroupProperties& subgroup, bool shuffles,
+                                      std::vector<std::string>& missing) {
     if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT)) {
         missing.emplace_back("subgroup operations in compute shaders");
         return;
@@ -213,11 +197,29 @@ void find_missing_subgroup_operations(const VkPhysicalDeviceSubgroupProperties& 
     constexpr std::pair<VkSubgroupFeatureFlagBits, const char*> kRequired[] = {
         {VK_SUBGROUP_FEATURE_BASIC_BIT, "basic"},
         {VK_SUBGROUP_FEATURE_ARITHMETIC_BIT, "arithmetic"},
-        {VK_SUBGROUP_FEATURE_SHUFFLE_BIT, "shuffle"},
     };
     for (const auto& [bit, name] : kRequired) {
         if (!(subgroup.supportedOperations & bit)) missing.push_back(std::string("subgroup ") + name);
     }
+    if (!shuffles) missing.emplace_back("subgroup shuffle");
+}
+
+std::vector<std::pair<std::string, uint64_t>> described_limits(const Candidate& candidate,
+                                                               const VkPhysicalDeviceLimits& vulkan) {
+    const Limits& limits = candidate.limits;
+    return {{"buffer_bytes", limits.max_buffer_bytes},
+            {"storage_range_bytes", limits.max_storage_range},
+            {"texel_elements", limits.max_texels},
+            {"storage_buffers", limits.storage_buffers},
+            {"push_constant_bytes", limits.push_constant_bytes},
+            {"workgroups", limits.max_groups},
+            {"workgroup_invocations", vulkan.maxComputeWorkGroupInvocations},
+            {"workgroup_width", vulkan.maxComputeWorkGroupSize[0]},
+            {"subgroup_invocations", limits.subgroup_size},
+            {"subgroup_invocations_most", candidate.subgroup.most},
+            {"timestamp_bits", limits.timestamps ? candidate.timestamp_bits : 0},
+            {"mapped", limits.mapped},
+            {"dispatch_milliseconds", limits.dispatch_ms}};
 }
 
 uint64_t largest_local_heap(VkPhysicalDevice physical) {
@@ -240,11 +242,12 @@ Candidate describe(VkPhysicalDevice physical, uint32_t index) {
     description.index = index;
     description.name = properties.deviceName;
     description.type = type_name(properties.deviceType);
+    description.vulkan = version_text(properties.apiVersion);
     description.heap_bytes = largest_local_heap(physical);
     find_queue(candidate);
     if (properties.apiVersion < VK_API_VERSION_1_3) {  // what follows may not be asked of it
-        description.driver = "Vulkan " + version_text(properties.apiVersion);
-        description.missing.push_back("Vulkan 1.3 (it has " + version_text(properties.apiVersion) + ")");
+        description.driver = "Vulkan " + description.vulkan;
+        description.missing.push_back("Vulkan 1.3 (it has " + description.vulkan + ")");
         return candidate;
     }
     VkPhysicalDeviceSubgroupSizeControlProperties control{
@@ -254,12 +257,18 @@ Candidate describe(VkPhysicalDevice physical, uint32_t index) {
     VkPhysicalDeviceDriverProperties driver{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES, .pNext = &subgroup};
     VkPhysicalDeviceProperties2 properties2{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &driver};
     vkGetPhysicalDeviceProperties2(physical, &properties2);
-    description.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    description.driver_name = driver.driverName;
+    description.driver_version = driver.driverInfo;
+    description.driver = description.driver_name + " " + description.driver_version;
+    description.faults = faults_of(driver.driverID, description.driver_version);
     find_missing_features(candidate);
     find_extensions(candidate);
-    find_missing_subgroup_operations(subgroup, description.missing);
-    find_missing_limits(properties2.properties.limits, description.missing);
     find_subgroup_size(candidate, subgroup, control);
+    candidate.limits = own_limits(candidate);
+    if (const char* lower = std::getenv("GNOMON_LIMITS")) candidate.limits = lower_limits(candidate.limits, lower);
+    description.limits = described_limits(candidate, properties2.properties.limits);
+    find_missing_subgroup_operations(subgroup, candidate.limits.shuffles, description.missing);
+    find_missing_limits(properties2.properties.limits, description.missing);
     return candidate;
 }
 
@@ -268,11 +277,29 @@ std::string lower(std::string text) {
     return text;
 }
 
-// The index that a choice of digits stands for; candidates.size() if it is not one.
-size_t index_of(const std::string& choice, size_t count) {
-    const bool digits =
-        choice.size() < 10 && std::all_of(choice.begin(), choice.end(), [](unsigned char c) { return std::isdigit(c); });
-    return digits ? std::min<size_t>(std::stoul(choice), count) : count;
+// The index of the device that a choice names: by its index, by type, where usable ones go before others, or by a part of its
+// name; candidates.size() where there is none.
+size_t index_of(const std::string& choice, const std::vector<Candidate>& candidates) {
+    const size_t none = candidates.size();
+    if (choice.size() < 10 && std::all_of(choice.begin(), choice.end(), [](unsigned char c) { return std::isdigit(c); }))
+        return std::min<size_t>(std::stoul(choice), none);
+    const std::string wanted = lower(choice);
+    if (wanted != "cpu" && wanted != "gpu") {
+        const auto found = std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+            return lower(c.description.name).find(wanted) != std::string::npos;
+        });
+        return static_cast<size_t>(found - candidates.begin());
+    }
+    const auto rank = [&](size_t i) {
+        return std::pair(!candidates[i].description.missing.empty(), type_rank(candidates[i].description.type));
+    };
+    size_t best = none;
+    for (size_t i = 0; i < candidates.size(); ++i) {
+        const std::string& type = candidates[i].description.type;
+        const bool fits = wanted == "cpu" ? type == "cpu" : type_rank(type) < 2;
+        if (fits && (best == none || rank(i) < rank(best))) best = i;
+    }
+    return best;
 }
 
 }  // namespace
@@ -312,6 +339,7 @@ Instance::Instance(bool validate) {
         return;
     }
     if (result != VK_SUCCESS) {
+        // One manifest that it cannot read, whatever others there are, is "out of host memory" to loader 1.3.239.
         if (const std::vector<std::string> errors = loader_errors(); !errors.empty())
             throw Error(ErrorKind::no_device, "cannot create a Vulkan instance: " + join(errors), "Vulkan loader",
                         "repair or remove what it names, or name the manifest of a driver that works in VK_DRIVER_FILES");
@@ -369,8 +397,10 @@ std::vector<Candidate> find_candidates(const Instance& instance) {
 Candidate choose_candidate(const Instance& instance, const std::string& choice) {
     const std::vector<Candidate> candidates = find_candidates(instance);
     if (candidates.empty()) {
-        throw Error(ErrorKind::no_device, "no Vulkan device", "",
-                    "install a Vulkan driver; Debian package mesa-vulkan-drivers has one that runs on the CPU");
+        const std::vector<std::string> errors = loader_errors();
+        throw Error(ErrorKind::no_device, "no Vulkan device" + (errors.empty() ? "" : ": " + join(errors)), "Vulkan loader",
+                    "install a Vulkan driver, or repair what the loader names; Debian package mesa-vulkan-drivers has one that "
+                    "runs on the CPU");
     }
     std::vector<std::string> lines;
     for (const Candidate& candidate : candidates) {
@@ -385,20 +415,38 @@ Candidate choose_candidate(const Instance& instance, const std::string& choice) 
         if (chosen != candidates.end()) return *chosen;
         throw Error(ErrorKind::no_device, "no Vulkan device has what gnomon needs", join(lines), "update the driver");
     }
-    const size_t index = index_of(choice, candidates.size());
-    const auto found = index < candidates.size()
-                           ? std::next(candidates.begin(), static_cast<std::ptrdiff_t>(index))
-                           : std::find_if(candidates.begin(), candidates.end(), [&](const Candidate& c) {
-                                 return lower(c.description.name).find(lower(choice)) != std::string::npos;
-                             });
-    if (found == candidates.end()) {
+    const size_t index = index_of(choice, candidates);
+    if (index == candidates.size()) {
         throw Error(ErrorKind::no_device, "no Vulkan device matches '" + choice + "'", "--device", "there are: " + join(lines));
     }
-    if (!found->description.missing.empty()) {
-        throw Error(ErrorKind::no_device, "device '" + found->description.name + "' lacks " + join(found->description.missing),
-                    "--device", "choose another or update its driver; there are: " + join(lines));
+    const DeviceDescription& found = candidates[index].description;
+    if (!found.missing.empty()) {
+        throw Error(ErrorKind::no_device, "device '" + found.name + "' lacks " + join(found.missing), "--device",
+                    "choose another or update its driver; there are: " + join(lines));
     }
-    return *found;
+    return candidates[index];
+}
+
+std::vector<std::string> loader_errors() {
+    std::vector<std::string> messages;
+    const VkDebugUtilsMessengerCreateInfoEXT listener{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+                                                      .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+                                                      .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT,
+                                                      .pfnUserCallback = collect_message,
+                                                      .pUserData = &messages};
+    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    const VkInstanceCreateInfo info{.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
+                                    .pNext = &listener,
+                                    .pApplicationInfo = &kApplication,
+                                    .enabledExtensionCount = 1,
+                                    .ppEnabledExtensionNames = &extension};
+    VkInstance instance = VK_NULL_HANDLE;
+    if (vkCreateInstance(&info, nullptr, &instance) == VK_SUCCESS) vkDestroyInstance(instance, nullptr);
+    std::vector<std::string> errors;
+    for (std::string& message : messages) {  // It looks for drivers several times.
+        if (std::find(errors.begin(), errors.end(), message) == errors.end()) errors.push_back(std::move(message));
+    }
+    return errors;
 }
 
 std::vector<DeviceDescription> list_devices() {
@@ -413,5 +461,7 @@ std::vector<DeviceDescription> list_devices() {
 namespace gnomon {
 
 std::vector<DeviceDescription> list_devices() { return gpu::list_devices(); }
+
+std::vector<std::string> loader_errors() { return gpu::loader_errors(); }
 
 }  // namespace gnomon

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the environment variable GNOMON_LIMITS.
+// The limits of a device, and lower ones by the environment variable GNOMON_LIMITS.
 #include "gpu/limits.hpp"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include <gnomon/error.hpp>
 #include <set>
 #include <sstream>
+#include <thread>
 
 namespace gnomon::gpu {
 namespace {
@@ -30,6 +31,7 @@ std::vector<KnownLimit> known_limits(Limits& limits) {
             known("groups", limits.max_groups),
             known("mapped", limits.mapped),
             known("push_constants", limits.push_constant_bytes),
+            known("shuffles", limits.shuffles),
             known("storage_buffers", limits.storage_buffers),
             known("storage_range", limits.max_storage_range),
             known("texel_reads", limits.texel_reads),
@@ -47,6 +49,46 @@ std::vector<KnownLimit> known_limits(Limits& limits) {
 }
 
 }  // namespace
+
+Limits own_limits(const Candidate& candidate) {
+    VkPhysicalDeviceSubgroupProperties subgroup{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceMaintenance4Properties maintenance4{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_4_PROPERTIES,
+                                                        .pNext = &subgroup};
+    VkPhysicalDeviceMaintenance3Properties maintenance3{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_MAINTENANCE_3_PROPERTIES,
+                                                        .pNext = &maintenance4};
+    VkPhysicalDeviceProperties2 properties{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2, .pNext = &maintenance3};
+    vkGetPhysicalDeviceProperties2(candidate.physical, &properties);
+    const VkPhysicalDeviceLimits& vulkan = properties.properties.limits;
+    Limits limits{
+        .heap_bytes = candidate.description.heap_bytes,
+        .max_buffer_bytes = std::min(maintenance3.maxMemoryAllocationSize, maintenance4.maxBufferSize),
+        .max_storage_range = vulkan.maxStorageBufferRange,
+        .storage_alignment = vulkan.minStorageBufferOffsetAlignment,
+        .max_texels = vulkan.maxTexelBufferElements,
+        .texel_alignment = vulkan.minTexelBufferOffsetAlignment,
+        .max_groups = std::min(vulkan.maxComputeWorkGroupCount[0], vulkan.maxComputeWorkGroupCount[1]),
+        .subgroup_size = candidate.subgroup.size,
+        .shuffles = (subgroup.supportedOperations & VK_SUBGROUP_FEATURE_SHUFFLE_BIT) != 0,
+        .storage_buffers = vulkan.maxPerStageDescriptorStorageBuffers,
+        .push_constant_bytes = vulkan.maxPushConstantsSize,
+        .timestamps = candidate.timestamp_bits > 0,
+        .is_cpu = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU,
+    };
+    if (limits.is_cpu) limits.threads = std::max(1u, std::thread::hardware_concurrency());
+
+    // Cached, because the host reads results: uncached device memory behind a bus is read far slower than it is copied. And in
+    // the largest heap, because some devices show the host a small window only.
+    constexpr VkMemoryPropertyFlags kMappable = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                                VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    VkPhysicalDeviceMemoryProperties memory{};
+    vkGetPhysicalDeviceMemoryProperties(candidate.physical, &memory);
+    for (uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        const VkMemoryType& type = memory.memoryTypes[i];
+        const bool large = memory.memoryHeaps[type.heapIndex].size == limits.heap_bytes;
+        if (large && (type.propertyFlags & kMappable) == kMappable) limits.mapped = true;
+    }
+    return limits;
+}
 
 Limits lower_limits(Limits own, const std::string& text) {
     Limits lowered = own;

@@ -77,6 +77,7 @@ struct Candidate {
     bool subgroup_size_control = false;
     SubgroupSize subgroup;
     uint32_t max_workgroup_subgroups = 0;  ///< Where a size is required.
+    Limits limits;                         ///< Of a device with Vulkan 1.3, or lowered for tests.
     bool uniform_control_flow = false;     ///< It has VK_KHR_shader_subgroup_uniform_control_flow.
     std::vector<const char*> extensions;   ///< To enable.
 };
@@ -134,7 +135,7 @@ struct Device::Impl {
     Instance instance;
     Candidate candidate;
     std::unique_ptr<VkDevice_T, DestroyDevice> device;  // before all that is made from it
-    Limits limits;  ///< Of the device, or lowered for tests; checks use these where there is one.
+    Limits limits;                                      ///< The candidate's; checks use these where there is one.
     VkPhysicalDeviceLimits vulkan_limits{};
     VkPhysicalDeviceMemoryProperties memory_properties{};
     uint64_t max_allocation_bytes = 0;

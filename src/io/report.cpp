@@ -47,6 +47,7 @@ Json render_json(const Frame& frame, const Json& settings, const std::vector<std
 
     Json json = document("render");
     json["device"] = stats.device;
+    json["driver"] = stats.driver;
     json["settings"] = settings;
     json["effective"] = frame.effective;
     json["stages"] = stages;

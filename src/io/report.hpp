@@ -21,6 +21,7 @@ Json settings_json(const RenderSettings& settings);
 
 /// The document "gnomon.render" of one frame:
 ///   device        string
+///   driver        string, its name and version
 ///   settings      object, as given
 ///   effective     {name: string}, what was really used where the settings leave a choice
 ///   stages        [{name, seconds, map_seconds, dispatches}], seconds on the device, and those of them that went into what the

@@ -33,6 +33,7 @@ FrameStats statistics(gpu::Device& device) {
     stats.submissions = device.submissions();
     stats.longest_dispatch = device.longest_dispatch_seconds();
     stats.device = device.description().name;
+    stats.driver = device.description().driver;
     return stats;
 }
 

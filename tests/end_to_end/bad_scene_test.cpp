@@ -9,20 +9,15 @@
 
 #include "shapes.hpp"
 #include "support/paths.hpp"
+#include "support/shared_devices.hpp"
 
 namespace gnomon::test {
 namespace {
 
-// Any message of the layer is an Error.
-Renderer& validated() {
-    static Renderer renderer("", true);
-    return renderer;
-}
-
 Frame render(const PosedScene& posed, uint32_t shadow_res = 64) {
     RenderSettings settings = small_settings(36, 28, 5, shadow_res);
     settings.keep_samples = true;
-    return validated().render(posed.scene, posed.poses, settings);
+    return validated_renderer().render(posed.scene, posed.poses, settings);
 }
 
 uint64_t hits_of(const Frame& frame) {
@@ -171,20 +166,20 @@ TEST(Validation, NormalFramesBringNoMessage) {
     const MovingTriangles still = placed(1.0, glm::dvec3(0.0));
     for (const char* layout : {"array", "linked"}) {
         settings.layout = layout;
-        const Frame frame = validated().render(still.scene, still.poses, settings);
+        const Frame frame = validated_renderer().render(still.scene, still.poses, settings);
         EXPECT_EQ(hash_of(frame), hash_of(shared_renderer().render(still.scene, still.poses, settings))) << layout;
         settings.pages = "asked";
-        EXPECT_EQ(hash_of(validated().render(still.scene, still.poses, settings)), hash_of(frame)) << layout;
+        EXPECT_EQ(hash_of(validated_renderer().render(still.scene, still.poses, settings)), hash_of(frame)) << layout;
         settings.pages = "all";
     }
     MovingTriangles ortho = still_life(2);
     ortho.scene.cameras[0] = orthographic(2.0);
-    validated().render(ortho.scene, ortho.poses, settings);
+    validated_renderer().render(ortho.scene, ortho.poses, settings);
     const PosedScene figure =
         load_posed(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes/figure.gltf");  // Skin, morph-free, texture.
-    const Frame whole = validated().render(figure.scene, figure.poses, settings);
+    const Frame whole = validated_renderer().render(figure.scene, figure.poses, settings);
     settings.memory_budget = whole.stats.peak_bytes * 9 / 10;
-    EXPECT_EQ(hash_of(validated().render(figure.scene, figure.poses, settings)), hash_of(whole));
+    EXPECT_EQ(hash_of(validated_renderer().render(figure.scene, figure.poses, settings)), hash_of(whole));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "scenes/scene_makers.hpp"
 #include "support/paths.hpp"
+#include "support/shared_devices.hpp"
 
 namespace gnomon::test {
 
@@ -42,8 +43,8 @@ PosedScene load_posed(const fs::path& path, const LoadOptions& options) {
 }
 
 Renderer& shared_renderer() {
-    static Renderer renderer;
-    return renderer;
+    static std::unique_ptr<Renderer> renderer;
+    return make_once(renderer);
 }
 
 Frame reference_frame(const PosedScene& posed, const RenderSettings& settings) {

@@ -45,7 +45,7 @@ protected:
 
     Frame render(const std::string& layout) {
         settings.layout = layout;
-        return renderer().render(scene, poses, settings);
+        return validated_renderer().render(scene, poses, settings);
     }
     Frame render() { return render(folder.string()); }
 

@@ -27,16 +27,16 @@ protected:
 };
 
 TEST_F(PictureTest, IsTheSameInEveryLayout) {
-    const Frame expected = renderer().render(scene, poses, settings);
+    const Frame expected = validated_renderer().render(scene, poses, settings);
     for (const std::string& layout : layout_names()) {
         if (!find_layout(layout).lossless) continue;
         settings.layout = layout;
-        expect_same_bits(renderer().render(scene, poses, settings), expected);
+        expect_same_bits(validated_renderer().render(scene, poses, settings), expected);
     }
 }
 
 TEST_F(PictureTest, IsTheSameWithinAnyBudget) {
-    const Frame expected = renderer().render(scene, poses, settings);
+    const Frame expected = validated_renderer().render(scene, poses, settings);
     uint64_t most_fills = 0, rendered = 0;
     for (const std::string& layout : layout_names()) {
         if (!find_layout(layout).lossless) continue;
@@ -45,7 +45,7 @@ TEST_F(PictureTest, IsTheSameWithinAnyBudget) {
         for (uint64_t budget = 2 * expected.stats.peak_bytes; budget > kMebibyte / 4; budget /= 2) {
             settings.memory_budget = budget;
             try {
-                const Frame frame = renderer().render(scene, poses, settings);
+                const Frame frame = validated_renderer().render(scene, poses, settings);
                 SCOPED_TRACE(testing::Message() << layout << " within " << budget << " bytes");
                 EXPECT_LE(frame.stats.peak_bytes, budget);
                 expect_same_bits(frame, expected);

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 #include <map>
-#include <memory>
 
 #include "end_to_end/moving_triangles.hpp"
 #include "math/sample.h"
 #include "soup.hpp"
 #include "stage_test.hpp"
+#include "support/shared_devices.hpp"
 #include "support/two_cubes.hpp"
 
 namespace gnomon::test {
@@ -191,20 +191,13 @@ protected:
         return render_as_set();
     }
 
-    Frame render_as_set() {
-        if (!renderer) renderer = std::make_unique<Renderer>("", true);
-        return renderer->render(scene.scene, scene.poses, settings);
-    }
-
-    // The validation layer of Debian 13 (1.4.309) has ended before what is destroyed at the program's end.
-    static void TearDownTestSuite() { renderer.reset(); }
+    Frame render_as_set() { return validated_renderer().render(scene.scene, scene.poses, settings); }
 
     static uint64_t shadowed(const Frame& frame) {
         return static_cast<uint64_t>(
             std::count_if(frame.samples.begin(), frame.samples.end(), [](const SampleRecord& s) { return (s.lit & 1u) == 0; }));
     }
 
-    static inline std::unique_ptr<Renderer> renderer;
     MovingTriangles scene;
     RenderSettings settings;
 };

@@ -19,7 +19,7 @@ protected:
     Frame render(const std::string& method, uint32_t shadow_res) {
         settings.method = method;
         settings.shadow_res = shadow_res;
-        return renderer().render(scene, poses, settings);
+        return validated_renderer().render(scene, poses, settings);
     }
 };
 

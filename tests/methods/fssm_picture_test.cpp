@@ -31,13 +31,8 @@ protected:
         settings.method = "fssm";
     }
 
-    static Renderer& renderer() {
-        static Renderer shared("", true);
-        return shared;
-    }
-
     std::vector<float> visibility(const PosedScene& scene) {
-        return renderer().render(scene.scene, scene.poses, settings).channels.at(5).values;
+        return validated_renderer().render(scene.scene, scene.poses, settings).channels.at(5).values;
     }
 
     static double rmse(const std::vector<float>& a, const std::vector<float>& b) {
@@ -132,7 +127,7 @@ TEST_F(FssmPictureTest, HasLessNoiseThanTimeDependentShadowMaps) {
             settings.method = method;
             std::vector<double> sums(size_t(settings.width) * settings.height), squares(sums.size());
             for (settings.seed = 0; settings.seed < kSeeds; ++settings.seed) {
-                const Frame frame = renderer().render(scene, poses, settings);
+                const Frame frame = validated_renderer().render(scene, poses, settings);
                 for (size_t i = 0; i < sums.size(); ++i) {
                     const double v = frame.channels.at(5).values[i];
                     sums[i] += v;
@@ -160,15 +155,15 @@ TEST_F(FssmCubesTest, MemoryAndBatchesDoNotMatter) {
     for (const double tile : {8.0, 4.0}) {
         settings.parameters["tile"] = tile;
         settings.memory_budget = 0;
-        const Frame expected = renderer().render(scene, poses, settings);
+        const Frame expected = validated_renderer().render(scene, poses, settings);
         // A tile's grid and mip levels, 16 bytes a tuple, and the layer itself.
         const uint64_t tiles = tile == 8.0 ? 32 * 32 : 63 * 63, tuples = tile == 8.0 ? 341 : 85;
         EXPECT_EQ(expected.stats.counts.at("layer_bytes.0"), tiles * (tuples * 16 + 16));
         EXPECT_EQ(expected.stats.buffer_bytes.at("fssm.tuples") + expected.stats.buffer_bytes.at("fssm.layers"),
                   4 * tiles * (tuples * 16 + 16));
-        expect_same_bits(renderer().render(scene, poses, settings), expected);
+        expect_same_bits(validated_renderer().render(scene, poses, settings), expected);
         settings.memory_budget = 16u << 20;
-        const Frame frame = renderer().render(scene, poses, settings);
+        const Frame frame = validated_renderer().render(scene, poses, settings);
         EXPECT_LT(frame.stats.buffer_bytes.at("fssm.tuples"), expected.stats.buffer_bytes.at("fssm.tuples")) << "no bands";
         EXPECT_LT(frame.stats.buffer_bytes.at("map_samples"), expected.stats.buffer_bytes.at("map_samples")) << "no parts";
         EXPECT_LE(frame.stats.peak_bytes, settings.memory_budget);
@@ -180,7 +175,7 @@ TEST_F(FssmCubesTest, TooLittleMemoryIsSaid) {
     settings.shadow_res = 4096;
     settings.memory_budget = 32u << 20;
     try {
-        renderer().render(scene, poses, settings);
+        validated_renderer().render(scene, poses, settings);
         ADD_FAILURE() << "nothing was thrown";
     } catch (const Error& error) {
         EXPECT_EQ(error.kind(), ErrorKind::out_of_memory);

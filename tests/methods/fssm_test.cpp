@@ -12,6 +12,7 @@
 #include "math/sample.h"
 #include "methods/level_scene.hpp"
 #include "oracle/fssm.hpp"
+#include "support/shared_devices.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -131,13 +132,7 @@ void add_rectangles(LevelScene& scene) {
     scene.add({0.8, 0.8}, {{2.0, 0.7, 2.0}, {2.0, 1.5, 2.0}, {2.1, 2.1, 2.0}});
 }
 
-class FssmOracleTest : public testing::TestWithParam<Case> {
-protected:
-    static Renderer& renderer() {
-        static Renderer shared("", true);
-        return shared;
-    }
-};
+class FssmOracleTest : public testing::TestWithParam<Case> {};
 
 TEST_P(FssmOracleTest, EverySampleHasTheOraclesLight) {
     const Case& c = GetParam();
@@ -154,7 +149,7 @@ TEST_P(FssmOracleTest, EverySampleHasTheOraclesLight) {
     settings.parameters = c.parameters;
     settings.parameters.insert({"map-spp", 4});
     settings.parameters["bias"] = kBias;
-    const Frame frame = renderer().render(scene.scene, scene.poses, settings);
+    const Frame frame = validated_renderer().render(scene.scene, scene.poses, settings);
 
     const auto set = [&](const char* name) { return !c.parameters.contains(name) || c.parameters.at(name) != 0.0; };
     oracle::FssmSettings tiles;

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "stages/programs.hpp"
+#include "support/shared_devices.hpp"
 
 namespace gnomon::test {
 
@@ -13,12 +14,12 @@ namespace gnomon::test {
 class StageTest : public testing::Test {
 protected:
     static gpu::Device& device() {
-        static gpu::Device shared("", true);
-        return shared;
+        static std::unique_ptr<gpu::Device> device;
+        return make_once(device, "", true);
     }
     static Programs& programs() {
-        static Programs shared(device());
-        return shared;
+        static std::unique_ptr<Programs> programs;
+        return make_once(programs, device());
     }
     void TearDown() override { EXPECT_THAT(device().validation_messages(), testing::IsEmpty()); }
 };

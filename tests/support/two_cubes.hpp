@@ -7,6 +7,7 @@
 #include <gnomon/render.hpp>
 
 #include "support/paths.hpp"
+#include "support/shared_devices.hpp"
 
 namespace gnomon::test {
 
@@ -14,11 +15,6 @@ namespace gnomon::test {
 template <class Base = testing::Test>
 class TwoCubes : public Base {
 protected:
-    static Renderer& renderer() {
-        static Renderer shared("", true);
-        return shared;
-    }
-
     TwoCubes(uint32_t width, uint32_t height, uint32_t spp)
         : scene(load_scene(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "scenes" / "two-cubes.gltf")) {
         poses = pose_scene(scene, {AnimationChoice::Kind::all, 0}, 0.0, 0.5, 2);
@@ -32,7 +28,7 @@ protected:
 
     Frame render(const std::string& method) {
         settings.method = method;
-        return renderer().render(scene, poses, settings);
+        return validated_renderer().render(scene, poses, settings);
     }
 
     /// Of the samples that hit, the share whose light differs.

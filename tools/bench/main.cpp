@@ -70,7 +70,7 @@ void add_options(CLI::App& app, Options& o) {
         ->check(CLI::Range(1, 1024).description(""))
         ->capture_default_str();
     app.add_option("--device", o.device, "Which Vulkan device [the first hardware device, else a CPU]")
-        ->type_name("NAME|INDEX");
+        ->type_name("NAME|INDEX|cpu|gpu");
 }
 
 uint32_t scaled(uint32_t side, double scale) { return static_cast<uint32_t>(std::max(1.0, std::round(side * scale))); }

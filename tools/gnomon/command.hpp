@@ -12,7 +12,7 @@
 namespace gnomon::cli {
 
 /// Exit codes that are not those of an ErrorKind.
-enum ExitCode : int { kDone = 0, kLostEntries = 7, kOverThreshold = 8, kInterrupted = 130 };
+enum ExitCode : int { kDone = 0, kLostEntries = 7, kOverThreshold = 8, kWrongResult = 9, kInterrupted = 130 };
 
 /// What the command line asks for: filled while it is parsed, run after.
 struct Invocation {
@@ -30,6 +30,7 @@ void warn_if_unused(const CLI::App& command, const std::string& option, const st
 void add_render(CLI::App& app, Invocation& invocation);
 void add_info(CLI::App& app, Invocation& invocation);
 void add_devices(CLI::App& app, Invocation& invocation);
+void add_doctor(CLI::App& app, Invocation& invocation);
 void add_methods(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_ranges(CLI::App& app, Invocation& invocation);

@@ -73,8 +73,9 @@ io::Json curves_json(const CompareOptions& options, const std::vector<ChannelCur
         for (const MethodCurve& method : channel.methods) {
             const ErrorCurve curve = method.curve();
             io::Json renders = io::Json::array();
-            for (const auto& [path, point] : method.renders)
+            for (const auto& [path, driver, point] : method.renders)
                 renders.push_back({{"render", path},
+                                   {"driver", driver.empty() ? io::Json(nullptr) : io::Json(driver)},
                                    {"seconds", point.seconds},
                                    {"error", point.error},
                                    {"standard_error", point.standard_error}});

@@ -69,6 +69,17 @@ void write_flip(const std::string& path, const ExrImage& image, const PerceivedE
     io::write_png(path, image.width, image.height, grey);
 }
 
+/// Both headers name a driver, and not the same.
+bool drivers_differ(const ImagePair& pair) {
+    const std::string a = driver_of(pair.a.image.attributes), b = driver_of(pair.b.image.attributes);
+    return !a.empty() && !b.empty() && a != b;
+}
+
+io::Json driver_json(const NamedImage& image) {
+    const std::string driver = driver_of(image.image.attributes);
+    return driver.empty() ? io::Json(nullptr) : io::Json(driver);
+}
+
 /// The document "gnomon.compare". null: psnr where it is infinite, as between equal images; what is not known.
 io::Json compare_json(const CompareOptions& options, const ImagePair& pair, const std::vector<ChannelError>& errors,
                       const std::optional<PerceivedError>& perceived, bool over) {
@@ -76,6 +87,7 @@ io::Json compare_json(const CompareOptions& options, const ImagePair& pair, cons
     json["a"] = pair.a.path;
     json["b"] = pair.b.path;
     json["again"] = options.again.empty() ? io::Json(nullptr) : io::Json(options.again);
+    json["drivers"] = {{"a", driver_json(pair.a)}, {"b", driver_json(pair.b)}, {"differ", drivers_differ(pair)}};
     json["width"] = pair.a.image.width;
     json["height"] = pair.a.image.height;
     json["channels"] = io::Json::array();
@@ -142,6 +154,9 @@ int compare_images(const CompareOptions& options) {
     check_same_size(pair);
     if (const auto seed = common_seed(a.image.attributes, b.image.attributes); seed && options.again.empty())
         spdlog::info("both images have seed {}: their noise is partly the same, and how much it is not known", *seed);
+    if (drivers_differ(pair))
+        spdlog::warn("the images are of different drivers: {} of {}, {} of {}", a.path, driver_of(a.image.attributes), b.path,
+                     driver_of(b.image.attributes));
     const std::vector<std::string> names = common_channels(pair, options.channels);
     std::optional<NamedImage> again;
     if (!options.again.empty()) {

@@ -90,6 +90,11 @@ std::optional<std::string> common_seed(const Attributes& a, const Attributes& b)
     return in_a != a.end() && in_b != b.end() && in_a->second == in_b->second ? std::optional(in_a->second) : std::nullopt;
 }
 
+std::string driver_of(const Attributes& attributes) {
+    const auto found = attributes.find("gnomon:driver");
+    return found == attributes.end() ? "" : found->second;
+}
+
 std::optional<std::string> setting_that_differs(const Attributes& a, const Attributes& b) {
     Attributes all = a;
     all.insert(b.begin(), b.end());

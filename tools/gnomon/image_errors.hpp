@@ -40,6 +40,9 @@ std::vector<std::string> common_channels(const ImagePair& pair, const std::vecto
 /// The seed with which the headers of two images say that they were rendered: their noise is partly the same.
 std::optional<std::string> common_seed(const Attributes& a, const Attributes& b);
 
+/// The driver, with its version, that an image's header names; empty where it names none.
+std::string driver_of(const Attributes& attributes);
+
 /// A setting in which the headers of two images differ, other than the seed.
 std::optional<std::string> setting_that_differs(const Attributes& a, const Attributes& b);
 

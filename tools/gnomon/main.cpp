@@ -26,6 +26,7 @@ int run(int argc, char** argv) {
     gnomon::cli::add_render(app, invocation);
     gnomon::cli::add_info(app, invocation);
     gnomon::cli::add_devices(app, invocation);
+    gnomon::cli::add_doctor(app, invocation);
     gnomon::cli::add_methods(app, invocation);
     gnomon::cli::add_compare(app, invocation);
     gnomon::cli::add_ranges(app, invocation);

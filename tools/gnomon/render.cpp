@@ -107,7 +107,7 @@ int render(const RenderOptions& options, bool quiet) {
 
         check_finite(frame, options.scene);
         write_outputs(frame, job, options,
-                      frame_settings(options, settings, job, drawn.cameras[settings.camera].name, renderer.device().name),
+                      frame_settings(options, settings, job, drawn.cameras[settings.camera].name, renderer.device()),
                       drawn.warnings);
         log_statistics(frame.stats);
         if (const auto lost = frame.stats.counts.find("lost_entries"); lost != frame.stats.counts.end() && lost->second > 0) {

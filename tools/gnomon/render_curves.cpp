@@ -23,6 +23,7 @@ struct Render {
     std::string json;
     std::string method;
     std::string device;
+    std::string driver;  ///< Empty where it names none.
     std::string exr;
     double seconds = 0.0;
     Attributes attributes;  ///< Those of its image.
@@ -70,6 +71,7 @@ Render read_render(const std::string& path, const std::vector<std::string>& by) 
         return {.json = path,
                 .method = method_of(settings, by),
                 .device = json.at("device"),
+                .driver = json.value("driver", ""),
                 .exr = find_image(json.at("outputs").at(0), path),
                 .seconds = json.at("wall_seconds"),
                 .attributes = io::exr_attributes(settings, json.at("effective"))};
@@ -181,6 +183,9 @@ std::vector<ChannelCurves> render_curves(const CompareOptions& options) {
         if (const Render& first = renders.front().first; render.device != first.device)
             spdlog::warn("{} was rendered on {}, {} on {}: their seconds differ for that", first.json, first.device,
                          render.json, render.device);
+        else if (!render.driver.empty() && !first.driver.empty() && render.driver != first.driver)
+            spdlog::warn("{} was rendered by the driver {}, {} by {}: their seconds differ for that", first.json, first.driver,
+                         render.json, render.driver);
         const NamedImage image = image_of(render);
         const std::optional<NamedImage> again = second ? std::optional(image_of(*second)) : std::nullopt;
         const ImagePair pair{image, reference};
@@ -190,7 +195,7 @@ std::vector<ChannelCurves> render_curves(const CompareOptions& options) {
         const NamedPoints errors = errors_of(render, pair, again ? &*again : nullptr, options);
         for (const auto& [name, point] : errors) {
             ChannelCurves& channel = named(channels, &ChannelCurves::name, name);
-            named(channel.methods, &MethodCurve::method, render.method).renders.push_back({render.json, point});
+            named(channel.methods, &MethodCurve::method, render.method).renders.push_back({render.json, render.driver, point});
         }
     }
     std::erase_if(channels, lacks_an_error);

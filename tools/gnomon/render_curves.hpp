@@ -14,6 +14,7 @@ namespace gnomon::cli {
 struct MethodCurve {
     struct Render {
         std::string json;
+        std::string driver;  ///< Empty where the document names none.
         io::CurvePoint point;
     };
     std::string method;           ///< The values of the settings that tell methods apart.

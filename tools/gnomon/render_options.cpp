@@ -135,7 +135,7 @@ void bind_render_options(CLI::App& command, RenderOptions& options) {
         ->group(time);
 
     command.add_option("--device", o.device, "Which Vulkan device [the first hardware device, else a CPU]")
-        ->type_name("NAME|INDEX")
+        ->type_name("NAME|INDEX|cpu|gpu")
         ->group(machine);
     add_parsed(command, "--memory-budget", "SIZE", "", "Most device memory, as in 512M or 1.5GiB [half the device's heap]",
                [&o](Text text, Text name) { o.settings.memory_budget = parse_bytes(text, name); })
@@ -168,7 +168,7 @@ std::vector<FrameJob> frame_jobs(const RenderOptions& options) {
 }
 
 io::Json frame_settings(const RenderOptions& options, const RenderSettings& effective, const FrameJob& frame,
-                        const std::string& camera_name, const std::string& device) {
+                        const std::string& camera_name, const DeviceDescription& device) {
     io::Json settings = io::settings_json(effective);
     settings["camera_name"] = camera_name;
     settings["scene"] = std::filesystem::path(options.scene).filename().string();
@@ -183,7 +183,8 @@ io::Json frame_settings(const RenderOptions& options, const RenderSettings& effe
     }
     if (options.ground) settings["ground"] = options.ground->height ? io::Json(*options.ground->height) : io::Json("auto");
     if (frame.png) settings["exposure"] = options.exposure;
-    settings["device"] = device;
+    settings["device"] = device.name;
+    settings["driver"] = device.driver;
     settings["version"] = GNOMON_VERSION;
     return settings;
 }

@@ -54,8 +54,8 @@ void bind_render_options(CLI::App& command, RenderOptions& options);
 /// with the same file twice.
 std::vector<FrameJob> frame_jobs(const RenderOptions& options);
 
-/// Everything that the picture of this frame depends on, and the device.
+/// Everything that the picture of this frame depends on, and the device with its driver.
 io::Json frame_settings(const RenderOptions& options, const RenderSettings& effective, const FrameJob& frame,
-                        const std::string& camera_name, const std::string& device);
+                        const std::string& camera_name, const DeviceDescription& device);
 
 }  // namespace gnomon::cli

@@ -151,7 +151,7 @@ void add_reproduce(CLI::App& app, Invocation& invocation) {
         ->type_name("N")
         ->default_str("128");
     command->add_option("--device", options->device, "Which Vulkan device [the first hardware device, else a CPU]")
-        ->type_name("NAME|INDEX");
+        ->type_name("NAME|INDEX|cpu|gpu");
     command->callback([&invocation, options] {
         invocation.run = [&invocation, options] {
             if (options->list) {

@@ -23,10 +23,13 @@ TEST(ListDevices, DescribesWhatIsThere) {
         EXPECT_FALSE(devices[i].name.empty());
         EXPECT_FALSE(devices[i].driver.empty());
         EXPECT_GT(devices[i].heap_bytes, 0u);
+        EXPECT_THAT(devices[i].vulkan, testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+"));
         EXPECT_THAT(devices[i].type, testing::AnyOf("discrete", "integrated", "virtual", "cpu", "other"));
         if (devices[i].chosen) {
             ++chosen;
             EXPECT_THAT(devices[i].missing, testing::IsEmpty());
+            EXPECT_EQ(devices[i].driver, devices[i].driver_name + " " + devices[i].driver_version);
+            EXPECT_THAT(devices[i].limits, testing::Contains(testing::Pair("storage_range_bytes", testing::Ge(1u << 27))));
         }
     }
     EXPECT_EQ(chosen, 1u);
@@ -54,6 +57,17 @@ TEST(ListDevices, AManifestThatIsBrokenIsNamedOrPassedOver) {
     }
 }
 
+TEST(ListDevices, ALibraryThatIsMissingIsNamed) {
+    const std::filesystem::path manifest = std::filesystem::path(testing::TempDir()) / "gnomon_no_library.json";
+    std::ofstream(manifest) << R"({"file_format_version": "1.0.0",)"
+                            << R"( "ICD": {"library_path": "/nonexistent/libgnomon_driver.so", "api_version": "1.3.0"}})";
+    const ScopedVariable drivers("VK_DRIVER_FILES", manifest.c_str());
+    const ScopedVariable icds("VK_ICD_FILENAMES", manifest.c_str());
+    EXPECT_THAT(loader_errors(), testing::Contains(testing::HasSubstr("libgnomon_driver.so")));
+    EXPECT_THAT(list_devices(), testing::IsEmpty());
+    expect_error(ErrorKind::no_device, {"no Vulkan device: ", "libgnomon_driver.so", "repair"}, [] { Device("", false); });
+}
+
 TEST(Validation, WithoutTheLayerNamesThePackage) {
     const ScopedVariable no_layers("VK_LAYER_PATH", "/nonexistent");
     expect_error(ErrorKind::no_device, {"vulkan-validationlayers"}, [] { Device("", true); });
@@ -69,6 +83,23 @@ TEST(DeviceChoice, ByIndexByPartOfTheNameAndByDefault) {
     std::transform(shouted.begin(), shouted.end(), shouted.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     EXPECT_THAT(Device(shouted, false).description().name, testing::HasSubstr(chosen->name.substr(1)));
+}
+
+TEST(DeviceChoice, ByType) {
+    const auto expect_type = [](const char* choice, const std::vector<std::string>& types) {
+        const std::vector<DeviceDescription> devices = list_devices();
+        const bool is_there = std::any_of(devices.begin(), devices.end(), [&](const DeviceDescription& d) {
+            return d.missing.empty() && std::find(types.begin(), types.end(), d.type) != types.end();
+        });
+        if (is_there) {
+            EXPECT_THAT(Device(choice, false).description().type, testing::AnyOfArray(types));
+        } else {
+            expect_error(ErrorKind::no_device, {choice}, [&] { Device(choice, false); });
+        }
+    };
+    expect_type("cpu", {"cpu"});
+    expect_type("CPU", {"cpu"});
+    expect_type("gpu", {"discrete", "integrated", "virtual"});
 }
 
 TEST(DeviceChoice, UnknownListsWhatExists) {
@@ -109,6 +140,17 @@ TEST(LoweredLimits, AreWhatTheDeviceSeemsToHave) {
     EXPECT_EQ(device.limits().dispatch_ms, 3u);
     EXPECT_FALSE(device.limits().mapped);
     EXPECT_FALSE(device.has_timestamps());
+}
+
+TEST(LoweredLimits, WithoutShufflesNoDeviceIsUsable) {
+    const ScopedVariable lowered("GNOMON_LIMITS", "shuffles=0");
+    for (const DeviceDescription& device : list_devices()) {
+        EXPECT_THAT(device.missing, testing::Contains("subgroup shuffle"));
+        EXPECT_FALSE(device.chosen);
+    }
+    expect_error(ErrorKind::no_device, {"no Vulkan device has what gnomon needs", "lacks subgroup shuffle"},
+                 [] { Device("", false); });
+    expect_error(ErrorKind::no_device, {"lacks subgroup shuffle"}, [] { Device("0", false); });
 }
 
 TEST(LoweredLimits, OthersAndHigherOnesAreErrors) {

@@ -13,6 +13,7 @@ namespace gnomon::test {
 
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// Renders that are everywhere as far from a black reference as their error.
 class CliCompareCurvesTest : public TestFolder {
@@ -65,6 +66,23 @@ TEST_F(CliCompareCurvesTest, TablesOnStdout) {
               "seconds to error                       tsm                 exact\n"
               "0.5                                 1 +- 0      before the first\n"
               "0.25                                4 +- 0                2 +- 0\n");
+}
+
+TEST_F(CliCompareCurvesTest, ADifferenceOfDriverIsNamed) {
+    const auto set_driver = [&](const char* name, const char* driver) {
+        json document = json::parse(content_of(folder / name));
+        document["driver"] = driver;
+        put_content(folder / name, document.dump());
+    };
+    set_driver("exact_2.json", "maker 1.2");
+    EXPECT_THAT(compare_all().err, Not(HasSubstr("by the driver")));
+    set_driver("tsm_4.json", "maker 1.3");
+    const CommandResult result = compare_all({"--json=-"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_THAT(result.err, HasSubstr("tsm_4.json was rendered by the driver maker 1.3, exact_2.json by maker 1.2"));
+    const json methods = json::parse(result.out)["channels"][0]["methods"];
+    EXPECT_EQ(methods[0]["renders"][0]["driver"], "maker 1.3");
+    EXPECT_EQ(methods[0]["renders"][1]["driver"], nullptr);
 }
 
 TEST_F(CliCompareCurvesTest, PlacesThatAreAskedFor) {

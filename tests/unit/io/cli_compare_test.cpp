@@ -42,6 +42,27 @@ TEST_F(CliCompareTest, TableOnStdout) {
               "Z                 0        0            0        0        -            0       inf            0           0\n");
 }
 
+TEST_F(CliCompareTest, NamesADifferenceOfDriver) {
+    const auto write = [&](const char* name, const std::map<std::string, std::string>& attributes) {
+        io::write_exr(folder / name, 2, 1, std::vector<Channel>{{"R", {1.0f, 2.0f}}}, attributes);
+    };
+    write("old.exr", {{"gnomon:driver", "maker 1.2"}});
+    write("new.exr", {{"gnomon:driver", "maker 1.3"}});
+    write("none.exr", {});
+    const CommandResult differ = compare({"old.exr", "new.exr", "--json=-", "--threshold=0"});
+    EXPECT_EQ(differ.exit_code, 0);
+    EXPECT_THAT(
+        differ.err,
+        HasSubstr("gnomon: warning: the images are of different drivers: old.exr of maker 1.2, new.exr of maker 1.3\n"));
+    EXPECT_EQ(json::parse(differ.out)["drivers"], json({{"a", "maker 1.2"}, {"b", "maker 1.3"}, {"differ", true}}));
+    for (const char* other : {"old.exr", "none.exr"}) {
+        const CommandResult same = compare({"old.exr", other, "--json=-"});
+        EXPECT_EQ(same.err, "");
+        EXPECT_EQ(json::parse(same.out)["drivers"]["differ"], false);
+    }
+    EXPECT_EQ(json::parse(compare({"old.exr", "none.exr", "--json=-"}).out)["drivers"]["b"], nullptr);
+}
+
 TEST_F(CliCompareTest, Thresholds) {
     EXPECT_EQ(compare({"a.exr", "a.exr", "--threshold", "0"}).exit_code, 0);
     EXPECT_EQ(compare({"a.exr", "b.exr", "--threshold", "0.5"}).exit_code, 0);

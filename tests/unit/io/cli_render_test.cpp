@@ -23,7 +23,7 @@ using Names = std::set<std::string>;
 class CliRenderTest : public TestFolder {
 protected:
     void SetUp() override {
-        if (run_gnomon(folder, {"devices"}).exit_code == 4) GTEST_SKIP() << "skipped: no usable Vulkan device";
+        GN_SKIP_WITHOUT_DEVICE(run_gnomon(folder, {"devices"}));
         put_content(folder / "a.gltf", tiny_scene());
     }
 
@@ -56,6 +56,8 @@ TEST_F(CliRenderTest, FrameWithAllOutputs) {
     EXPECT_EQ(document["outputs"], json({"a.exr", "a.png"}));
     EXPECT_FALSE(document["stages"].empty());
     EXPECT_EQ(document["device"], image.attributes.at("gnomon:device"));
+    EXPECT_EQ(document["driver"], image.attributes.at("gnomon:driver"));
+    EXPECT_THAT(run_gnomon(folder, {"devices"}).out, HasSubstr(document["driver"].get<std::string>()));
 }
 
 TEST_F(CliRenderTest, SaysWhatItAdded) {

@@ -40,6 +40,7 @@ TEST_F(CliTest, HelpGoesToStdout) {
                                                                                            {"render", "--help"},
                                                                                            {"info", "--help"},
                                                                                            {"devices", "--help"},
+                                                                                           {"doctor", "--help"},
                                                                                            {"methods", "--help"},
                                                                                            {"compare", "--help"},
                                                                                            {"ranges", "--help"}}) {

@@ -6,6 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include "support/paths.hpp"
@@ -45,6 +46,11 @@ CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<
     std::filesystem::remove(out);
     std::filesystem::remove(err);
     return result;
+}
+
+bool device_is_required() {
+    const char* value = std::getenv("GNOMON_REQUIRE_DEVICE");
+    return value != nullptr && std::string(value) == "1";
 }
 
 }  // namespace gnomon::test

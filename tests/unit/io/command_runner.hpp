@@ -20,4 +20,14 @@ struct CommandResult {
 CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                          const std::function<void()>& prepare = {}, const std::function<void(int)>& while_running = {});
 
+/// Does the environment's GNOMON_REQUIRE_DEVICE say 1?
+bool device_is_required();
+
+/// Where a command found no device, skips the test, or fails it where a device is required, and says why.
+#define GN_SKIP_WITHOUT_DEVICE(result)                                                                                   \
+    if (const gnomon::test::CommandResult found = (result); found.exit_code == 4) {                                      \
+        if (gnomon::test::device_is_required()) FAIL() << "a device is required (GNOMON_REQUIRE_DEVICE): " << found.err; \
+        GTEST_SKIP() << "skipped: no usable Vulkan device: " << found.err;                                               \
+    }
+
 }  // namespace gnomon::test

@@ -143,10 +143,14 @@ TEST(RenderOptions, NamesAreChecked) {
 TEST(RenderOptions, SettingsNameWhatThePictureDependsOn) {
     const RenderOptions options =
         parse({"folder/a.glb", "-o", "#.exr", "--png=#.png", "--frames=3-3", "--ground=auto", "--exposure=2"});
-    const io::Json settings = cli::frame_settings(options, options.settings, cli::frame_jobs(options)[0], "main", "gpu");
+    DeviceDescription device;
+    device.name = "gpu";
+    device.driver = "maker 1.2";
+    const io::Json settings = cli::frame_settings(options, options.settings, cli::frame_jobs(options)[0], "main", device);
     EXPECT_EQ(settings["scene"], "a.glb");
     EXPECT_EQ(settings["camera_name"], "main");
     EXPECT_EQ(settings["device"], "gpu");
+    EXPECT_EQ(settings["driver"], "maker 1.2");
     EXPECT_EQ(settings["spp"], 16);
     EXPECT_EQ(settings["animation"], "0");
     EXPECT_EQ(settings["time_steps"], 1);

@@ -23,10 +23,11 @@ TEST(Report, RenderDocument) {
     stats.submissions = 7;
     stats.longest_dispatch = 0.25;
     stats.device = "llvmpipe";
+    stats.driver = "llvmpipe Mesa 22.3.6";
     const Json json = io::render_json(frame, {{"spp", 16}}, {"a.exr", "a.png"}, {"no camera"});
     EXPECT_EQ(json, Json::parse(R"({
         "schema": "gnomon.render", "schema_version": 1, "version": ")" GNOMON_VERSION R"(", "device": "llvmpipe",
-        "settings": {"spp": 16}, "effective": {"raster": "conservative"},
+        "driver": "llvmpipe Mesa 22.3.6", "settings": {"spp": 16}, "effective": {"raster": "conservative"},
         "stages": [{"name": "setup", "seconds": 0.5, "map_seconds": 0.125, "dispatches": 2},
                    {"name": "bin", "seconds": 0.25, "map_seconds": 0.0, "dispatches": 1}],
         "buffers": {"prisms": 4096}, "peak_bytes": 1099511627776, "counts": {"ranges": 123}, "submissions": 7,

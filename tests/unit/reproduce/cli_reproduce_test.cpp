@@ -23,8 +23,6 @@ protected:
         arguments.insert(arguments.begin(), "reproduce");
         return run_gnomon(folder, arguments);
     }
-
-    bool has_device() { return run_gnomon(folder, {"devices"}).exit_code == 0; }
 };
 
 TEST_F(CliReproduceTest, ListsFiguresWithTheirMethods) {
@@ -54,7 +52,7 @@ TEST_F(CliReproduceTest, FolderThatCannotBeMade) {
 }
 
 TEST_F(CliReproduceTest, SmallestFigures) {
-    if (!has_device()) GTEST_SKIP() << "skipped: no usable Vulkan device";
+    GN_SKIP_WITHOUT_DEVICE(run_gnomon(folder, {"devices"}));
     const CommandResult result =
         reproduce({"2015-13", "2015-12", "-o", "out", "--scale=0.04", "--repeat=3", "--reference-spp=8", "--quiet"});
     ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -96,7 +94,7 @@ TEST_F(CliReproduceTest, SmallestFigures) {
 }
 
 TEST_F(CliReproduceTest, InterruptExitsWith130AndLeavesNoHalfFile) {
-    if (!has_device()) GTEST_SKIP() << "skipped: no usable Vulkan device";
+    GN_SKIP_WITHOUT_DEVICE(run_gnomon(folder, {"devices"}));
     const auto interrupt = [](int child) {
         std::this_thread::sleep_for(std::chrono::seconds(2));
         kill(child, SIGINT);

@@ -50,7 +50,7 @@ TEST_F(PageTest, WorksInChromium) {
     if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "skipped: Chromium is not installed";
     const CommandResult made =
         run_gnomon(folder, {"reproduce", "2015-13", "-o", "out", "--scale=0.04", "--repeat=3", "--reference-spp=4", "--quiet"});
-    if (made.exit_code == 4) GTEST_SKIP() << "skipped: no usable Vulkan device";
+    GN_SKIP_WITHOUT_DEVICE(made);
     ASSERT_EQ(made.exit_code, 0) << made.err;
     std::string page = content_of(folder / "out" / "2015-13.html");
     page.insert(page.rfind("</body>"), kReader);
