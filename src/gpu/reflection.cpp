@@ -28,6 +28,8 @@ public:
         for (const auto& [id, words] : definitions_) {
             if (opcode(words) == spv::Op::OpVariable) add_variable(id, words, result);
         }
+        for (const Words words : local_variables_) result.local_bytes += local_bytes(pointed_type(words));
+        result.capabilities = capabilities_;
         check_unique(result.resources);
         result.local_size = local_size();
         return result;
@@ -62,19 +64,30 @@ private:
         constexpr size_t kHeaderWords = 5;
         const Words spirv = shader_.spirv;
         if (spirv.size() < kHeaderWords || spirv[0] != spv::MagicNumber) fail("not a SPIR-V module");
+        bool in_functions = false;
         for (size_t at = kHeaderWords; at < spirv.size();) {
             const size_t count = spirv[at] >> spv::WordCountShift;
             if (count == 0 || count > spirv.size() - at) fail("SPIR-V instruction runs past the end");
             const Words words = spirv.subspan(at, count);
-            if (opcode(words) == spv::Op::OpFunction) break;
-            read(words);
+            in_functions = in_functions || opcode(words) == spv::Op::OpFunction;
+            if (!in_functions) read(words);
+            if (opcode(words) == spv::Op::OpVariable && is_local(words)) local_variables_.push_back(words);
             at += count;
         }
         if (!has_entry_point_) fail("no compute entry point 'main'");
     }
 
+    bool is_local(Words words) const {
+        const auto storage = static_cast<spv::StorageClass>(operand(words, 3));
+        return storage == spv::StorageClass::Function || storage == spv::StorageClass::Private ||
+               storage == spv::StorageClass::Workgroup;
+    }
+
     void read(Words words) {
         switch (opcode(words)) {
+            case spv::Op::OpCapability:
+                capabilities_.push_back(operand(words, 1));
+                break;
             case spv::Op::OpEntryPoint:
                 if (has_entry_point_ || operand(words, 1) != static_cast<uint32_t>(spv::ExecutionModel::GLCompute) ||
                     literal_string(words, 3) != "main") {
@@ -199,6 +212,34 @@ private:
         }
     }
 
+    // Of a type outside blocks; what has no size of its own, as a bool, counts as a word.
+    uint64_t local_bytes(uint32_t id) const {
+        constexpr uint64_t kMost = uint64_t{1} << 32;  // No product of a length and this wraps around.
+        const auto found = definitions_.find(id);
+        if (found == definitions_.end()) return 4;
+        const Words words = found->second;
+        switch (opcode(words)) {
+            case spv::Op::OpTypeInt:
+            case spv::Op::OpTypeFloat:
+                return operand(words, 2) / 8;
+            case spv::Op::OpTypeVector:
+            case spv::Op::OpTypeMatrix:
+                return operand(words, 3) * local_bytes(operand(words, 2));
+            case spv::Op::OpTypeArray:
+                return std::min(kMost, constant_value(operand(words, 3)) * local_bytes(operand(words, 2)));
+            case spv::Op::OpTypeStruct: {
+                uint64_t bytes = 0;
+                for (size_t member = 2; member < words.size(); ++member) bytes += local_bytes(words[member]);
+                return std::min(kMost, bytes);
+            }
+            default:
+                return 4;
+        }
+    }
+
+    // What the pointer of a variable points to.
+    uint32_t pointed_type(Words variable) const { return operand(definition(operand(variable, 1)), 3); }
+
     uint64_t struct_bytes(uint32_t id, Words words) const {
         uint64_t bytes = 0;
         for (uint32_t member = 0; member + 2 < words.size(); ++member) {
@@ -213,7 +254,7 @@ private:
 
     void add_variable(uint32_t id, Words words, Reflection& result) const {
         const auto storage = static_cast<spv::StorageClass>(operand(words, 3));
-        const uint32_t type = operand(definition(operand(words, 1)), 3);  // what the pointer points to
+        const uint32_t type = pointed_type(words);
         if (storage == spv::StorageClass::PushConstant) {
             result.push_constant_bytes = static_cast<uint32_t>(type_bytes(type));
             return;
@@ -295,7 +336,8 @@ private:
 
     const Shader& shader_;
     bool has_entry_point_ = false;
-    std::vector<Words> execution_modes_;
+    std::vector<Words> execution_modes_, local_variables_;
+    std::vector<uint32_t> capabilities_;
     std::map<uint32_t, std::string> names_;
     std::map<uint32_t, Words> definitions_;
     std::map<std::pair<uint32_t, spv::Decoration>, uint32_t> decorations_;

@@ -26,6 +26,8 @@ struct Reflection {
     std::vector<Resource> resources;  ///< Names and binding numbers are unique.
     uint32_t push_constant_bytes = 0;
     std::array<uint32_t, 3> local_size{1, 1, 1};  ///< Invocations per workgroup, with the given constants.
+    std::vector<uint32_t> capabilities;           ///< spv::Capability
+    uint64_t local_bytes = 0;  ///< Of all variables of its functions, of an invocation and of a workgroup, without padding.
 };
 
 /// Errors (ErrorKind::internal, naming the shader): broken SPIR-V; an entry point other than one compute "main"; resources

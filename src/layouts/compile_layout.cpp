@@ -6,13 +6,16 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 
 #include <algorithm>
+#include <cstring>
 #include <deque>
 #include <gnomon/error.hpp>
 #include <optional>
 #include <regex>
+#include <spirv/unified1/spirv.hpp11>
 #include <sstream>
 
 #include "gpu/reflection.hpp"
+#include "layouts/apart.hpp"
 #include "source_table.h"
 #include "text/read_text.hpp"
 
@@ -21,7 +24,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostNested = 32;  // Includes; glslang itself has no limit.
+// glslang itself has no limits.
+constexpr size_t kMostNested = 32;
+constexpr size_t kMostIncludes = 1000;
+constexpr size_t kMostSourceBytes = size_t{4} << 20;
+constexpr size_t kMostWords = size_t{1} << 18;  // Of SPIR-V, ten times the longest stage of ours.
+// Drivers keep them on their stack, for each lane.
+constexpr uint64_t kMostLocalBytes = 16384;
+// Those that the device is opened for.
+constexpr spv::Capability kCapabilities[] = {
+    spv::Capability::Shader,
+    spv::Capability::SampledBuffer,
+    spv::Capability::ImageQuery,
+    spv::Capability::GroupNonUniform,
+    spv::Capability::GroupNonUniformArithmetic,
+    spv::Capability::GroupNonUniformShuffle,
+};
 constexpr uint32_t kFirstBinding = 16;
 constexpr uint32_t kEndBinding = 40;
 constexpr const char* kHint = "see CONTRIBUTING.md, A new layout";
@@ -60,10 +78,18 @@ private:
     IncludeResult* in_folder(const fs::path& header, const fs::path& from) {
         if (header.is_absolute() || std::find(header.begin(), header.end(), "..") != header.end())
             return failed("a layout includes only files of its own folder");
+        std::error_code error;
+        const fs::path file = fs::weakly_canonical(from / header, error);
+        const auto [end, ignored] = std::mismatch(folder_.begin(), folder_.end(), file.begin(), file.end());
+        if (error || end != folder_.end())
+            return failed("a layout includes only files of its own folder, and no links out of it");
         std::string reason;
-        std::optional<std::string> text = read_text(from / header, reason);
+        std::optional<std::string> text = read_text(file, reason);
         if (!text) return failed(texts_.emplace_back("cannot be read from the layout's folder: " + reason));
-        return made(from / header, texts_.emplace_back(std::move(*text)));
+        bytes_ += text->size();
+        if (++count_ > kMostIncludes || bytes_ > kMostSourceBytes)
+            return failed("a layout's includes are too many or too long");
+        return made(file, texts_.emplace_back(std::move(*text)));
     }
 
     IncludeResult* made(const fs::path& name, std::string_view text) {
@@ -72,6 +98,7 @@ private:
     IncludeResult* failed(std::string_view message) { return made({}, message); }
 
     fs::path folder_;
+    size_t count_ = 0, bytes_ = 0;  // Of includes from there.
     std::deque<std::string> texts_;
     std::deque<IncludeResult> results_;
 };
@@ -100,18 +127,17 @@ private:
     throw Error(ErrorKind::input, "layout does not compile: " + what, where, kHint);
 }
 
-std::vector<uint32_t> compile(const std::string& stage, const Layout& layout, bool storage_reads) {
-    struct Process {
-        Process() { glslang::InitializeProcess(); }
-        ~Process() { glslang::FinalizeProcess(); }
-    };
-    static const Process process;
+// What the compiler makes of a stage: words, or the log of what is wrong.
+struct Compiled {
+    std::vector<uint32_t> words;
+    std::string log;
+};
 
-    const std::string name = stage + ".comp";
-    const EmbeddedFile* source = find_source(name);
-    if (source == nullptr) throw Error(ErrorKind::internal, "no such stage", stage, "report this as a bug");
-    const char* text = source->text.data();
-    const int length = static_cast<int>(source->text.size());
+// In a process that may be lost: glslang recurses as deep as an expression does, and a small text may be expanded to a large
+// one.
+Compiled compile(const EmbeddedFile& source, const std::string& name, const fs::path& folder, bool storage_reads) {
+    const char* text = source.text.data();
+    const int length = static_cast<int>(source.text.size());
     const char* text_name = name.c_str();
 
     // As glslangValidator --target-env vulkan1.3.
@@ -122,19 +148,50 @@ std::vector<uint32_t> compile(const std::string& stage, const Layout& layout, bo
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-    Includer includer(layout.folder);
-    if (!shader.parse(GetDefaultResources(), 100, false, messages, includer)) fail(shader.getInfoLog(), layout);
+    Includer includer(folder);
+    if (!shader.parse(GetDefaultResources(), 100, false, messages, includer)) return {{}, shader.getInfoLog()};
 
     glslang::TProgram program;
     program.addShader(&shader);
-    if (!program.link(messages)) fail(program.getInfoLog(), layout);
-    std::vector<uint32_t> words;
-    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), words);
-    return words;
+    if (!program.link(messages)) return {{}, program.getInfoLog()};
+    Compiled compiled;
+    glslang::GlslangToSpv(*program.getIntermediate(EShLangCompute), compiled.words);
+    return compiled;
 }
 
-bool is_float(gpu::Texel format) {
-    return format == gpu::Texel::r32_float || format == gpu::Texel::rg32_float || format == gpu::Texel::rgba32_float;
+std::vector<uint32_t> compile_apart(const std::string& stage, const Layout& layout, bool storage_reads) {
+    struct Process {
+        Process() { glslang::InitializeProcess(); }
+        ~Process() { glslang::FinalizeProcess(); }
+    };
+    static const Process process;
+
+    const std::string name = stage + ".comp";
+    const EmbeddedFile* source = find_source(name);
+    if (source == nullptr) throw Error(ErrorKind::internal, "no such stage", stage, "report this as a bug");
+    const std::string where = (layout.folder / "layout.glsl").string();
+    // First a byte that says which, then the words or the log.
+    const auto work = [&] {
+        const Compiled compiled = compile(*source, name, layout.folder, storage_reads);
+        if (compiled.words.empty()) return "-" + compiled.log;
+        return "+" + std::string(reinterpret_cast<const char*>(compiled.words.data()), compiled.words.size() * 4);
+    };
+    std::string reason;
+    const std::string result = run_apart(work, {}, reason);
+    if (result.empty()) {
+        throw Error(ErrorKind::input, "layout does not compile: the compiler " + reason, where,
+                    "write what is nested deeply, expanded or long in a simpler way; " + std::string(kHint));
+    }
+    if (result[0] == '-') fail(result.substr(1), layout);
+    std::vector<uint32_t> words(result.size() / 4);
+    std::memcpy(words.data(), result.data() + 1, words.size() * 4);
+    if (words.size() > kMostWords) {
+        throw Error(ErrorKind::input,
+                    "layout is too long: " + std::to_string(words.size()) + " words of SPIR-V for " + stage +
+                        " are more than " + std::to_string(kMostWords),
+                    where, kHint);
+    }
+    return words;
 }
 
 // What the manifest promises a stage: the blocks to one that writes, the texel buffers to one that reads.
@@ -150,18 +207,59 @@ std::vector<gpu::Resource> promised(const Layout& layout, bool writes) {
     return result;
 }
 
+std::string name_of(uint32_t capability) {
+    constexpr std::pair<spv::Capability, const char*> kNames[] = {
+        {spv::Capability::Float64, "Float64"},
+        {spv::Capability::Float16, "Float16"},
+        {spv::Capability::Int64, "Int64"},
+        {spv::Capability::Int64Atomics, "Int64Atomics"},
+        {spv::Capability::Int16, "Int16"},
+        {spv::Capability::Int8, "Int8"},
+        {spv::Capability::PhysicalStorageBufferAddresses, "PhysicalStorageBufferAddresses"},
+        {spv::Capability::RayQueryKHR, "RayQueryKHR"},
+        {spv::Capability::GroupNonUniformBallot, "GroupNonUniformBallot"},
+        {spv::Capability::GroupNonUniformVote, "GroupNonUniformVote"},
+    };
+    for (const auto& [known, name] : kNames) {
+        if (static_cast<uint32_t>(known) == capability) return name;
+    }
+    return "number " + std::to_string(capability);
+}
+
+// What a layout's code may be: a driver trusts it.
+void check_code(const gpu::Reflection& code, const Layout& layout) {
+    const std::string where = (layout.folder / "layout.glsl").string();
+    for (uint32_t c : code.capabilities) {
+        if (std::find(std::begin(kCapabilities), std::end(kCapabilities), static_cast<spv::Capability>(c)) ==
+            std::end(kCapabilities)) {
+            throw Error(ErrorKind::input,
+                        "layout uses the SPIR-V capability " + name_of(c) + ", which gnomon opens no device with", where,
+                        kHint);
+        }
+    }
+    if (code.local_bytes > kMostLocalBytes) {
+        throw Error(ErrorKind::input,
+                    "layout's local variables take " + std::to_string(code.local_bytes) +
+                        " bytes of an invocation, more than " + std::to_string(kMostLocalBytes),
+                    where, "use smaller arrays, or a buffer");
+    }
+}
+
 void check_buffers(const std::vector<uint32_t>& words, const std::string& stage, const Layout& layout, bool storage_reads) {
     const std::string where = (layout.folder / "layout.json").string();
-    std::vector<gpu::Resource> declared;
+    gpu::Reflection code;
     try {
-        declared = gpu::reflect({stage, words}, {}).resources;
+        code = gpu::reflect({stage, words}, {});
     } catch (const Error& error) {
         throw Error(ErrorKind::input, std::string("not what a layout may declare: ") + error.what(),
                     (layout.folder / "layout.glsl").string(), kHint);
     }
+    check_code(code, layout);
+    std::vector<gpu::Resource> declared = std::move(code.resources);
     std::erase_if(declared, [](const gpu::Resource& r) { return r.binding < kFirstBinding || r.binding >= kEndBinding; });
     const auto named = [](const std::string& name) { return [&name](const gpu::Resource& r) { return r.name == name; }; };
-    const std::vector<gpu::Resource> expected = promised(layout, stage.starts_with("raster/"));
+    const bool writes = stage.starts_with("raster/");
+    const std::vector<gpu::Resource> expected = promised(layout, writes);
     for (const gpu::Resource& e : expected) {
         auto d = std::find_if(declared.begin(), declared.end(), named(e.name));
         if (d == declared.end()) {
@@ -171,6 +269,15 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
         // What is declared by READ_... is a storage buffer in that variant.
         if (d->kind != e.kind && !(storage_reads && d->kind == gpu::ResourceKind::storage_buffer)) {
             throw Error(ErrorKind::input, "'" + e.name + "' is of another kind or format in layout.glsl", where, kHint);
+        }
+    }
+    for (const LayoutBuffer& b : layout.buffers) {
+        auto d = std::find_if(declared.begin(), declared.end(), named(b.block));
+        if (writes && d->min_bytes > b.element_bytes) {
+            throw Error(ErrorKind::input,
+                        "block '" + b.block + "' holds " + std::to_string(d->min_bytes) +
+                            " bytes before any array without a length, its buffer may have " + std::to_string(b.element_bytes),
+                        where + ":" + std::to_string(b.line), kHint);
         }
     }
     for (const gpu::Resource& d : declared) {
@@ -183,7 +290,7 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
 }  // namespace
 
 std::vector<uint32_t> compile_stage(const std::string& stage, const Layout& layout, bool storage_reads) {
-    std::vector<uint32_t> words = compile(stage, layout, storage_reads);
+    std::vector<uint32_t> words = compile_apart(stage, layout, storage_reads);
     check_buffers(words, stage, layout, storage_reads);
     return words;
 }

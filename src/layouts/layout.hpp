@@ -27,7 +27,8 @@ struct LayoutBuffer {
     bool scan = false;         ///< After the count pass: replaced by its exclusive prefix sum.
     std::string copy_of = {};  ///< After that: a copy of this buffer.
     Clear clear = Clear::no;   ///< Before the fill pass.
-    uint32_t clear_value = 0;
+    uint32_t clear_value = 0;  ///< The bits of one component.
+    size_t line = 0;           ///< Of the manifest.
 };
 
 struct Layout {
@@ -42,6 +43,8 @@ struct Layout {
     std::string stage(const std::string& name_without) const;
 };
 
+bool is_float(gpu::Texel format);
+
 /// Names of the layouts that are built in.
 std::vector<std::string> layout_names();
 
@@ -52,7 +55,7 @@ Layout find_layout(const std::string& name_or_folder);
 /// Without the buffers that only an exit depth needs, where there is none.
 Layout with_ranges(Layout layout, bool exit_depth);
 
-/// Parse a manifest. Errors: ErrorKind::input naming `where` and the member.
+/// Parse a manifest. Errors: ErrorKind::input naming `where`, the line and the member.
 Layout parse_layout(std::string_view json, const std::string& where);
 
 }  // namespace gnomon

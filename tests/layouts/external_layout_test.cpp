@@ -4,9 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <gnomon/error.hpp>
 #include <gnomon/render.hpp>
+#include <thread>
 
+#include "layouts/apart.hpp"
 #include "layouts/layout.hpp"
 #include "methods/method.hpp"
 #include "support/paths.hpp"
@@ -149,10 +152,116 @@ TEST_F(ExternalLayoutTest, NamesWhatIsWrongInTheManifest) {
     expect_input_error({"nested more than 64 deep", path("layout.json")});
     copy_layout("array");
     edit("layout.json", "\"buffers\"", "\"Buffers\"");
-    expect_input_error({"not a layout's manifest", path("layout.json")});
+    expect_input_error({"'buffers' is missing", path("layout.json:1")});
     copy_layout("array");
     edit("layout.json", "rgba32_float", "rgb8");
-    expect_input_error({"'format' is 'rgb8'", path("layout.json")});
+    expect_input_error({"'buffers/2/format' is 'rgb8'", path("layout.json:9")});
+}
+
+TEST_F(ExternalLayoutTest, SaysWhichMemberOfTheManifestCannotBe) {
+    const struct {
+        const char *from, *to, *what, *place;
+    } cases[] = {
+        {"\"scan\": true", "\"scann\": true", "'buffers/0/scann' is not known", "layout.json:7"},
+        {"\"lossless\": true", "\"lossles\": true", "'lossles' is not known", "layout.json:5"},
+        {"\"lossless\": true", "\"lossless\": 1", "'lossless' is neither true nor false", "layout.json:5"},
+        {"\"per\": \"list\", \"scan\"", "\"scan\"", "'buffers/0/per' is missing", "layout.json:7"},
+        {"\"block\": \"RangeExits\"", "\"block\": \"Ranges\"", "buffer 'Ranges' is named twice", "layout.json:10"},
+        {"\"copy_of\": \"ListOffsets\"", "\"copy_of\": \"ListCursors\"", "is a copy of itself", "layout.json:8"},
+        {"\"copy_of\": \"ListOffsets\"", "\"copy_of\": \"Offsets\"", "copy of 'Offsets', which there is not", "layout.json:8"},
+        {"\"copy_of\": \"ListOffsets\"", "\"copy_of\": \"Ranges\"", "which has other 'per', 'format'", "layout.json:8"},
+        {"\"scan\": true", "\"scan\": true, \"format\": \"rg32_uint\"", "format", "layout.json:7"},
+        {"\"per\": \"range\" }", "\"per\": \"range\", \"clear\": true }", "is not a number that a 32-bit float",
+         "layout.json:9"},
+        {"\"per\": \"range\" }", "\"per\": \"range\", \"clear\": 1e39 }", "is not a number that a 32-bit float",
+         "layout.json:9"},
+        {"\"scan\": true", "\"clear\": -1", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
+        {"\"scan\": true", "\"clear\": 0.5", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
+        {"\"scan\": true", "\"clear\": true", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
+        {"\"scan\": true", "\"clear\": 1e30", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
+        {"\"scan\": true", "\"clear\": 4294967296", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
+    };
+    for (const auto& c : cases) {
+        SCOPED_TRACE(c.to);
+        copy_layout("array");
+        edit("layout.json", c.from, c.to);
+        expect_input_error({c.what, path(c.place)});
+    }
+    copy_layout("linked");
+    edit("layout.glsl", "uint node_count;", "uint node_count, more;");
+    expect_input_error({"block 'NodeCount' holds 8 bytes", path("layout.json:11")});
+}
+
+// What the driver could not take, or the compiler: an error, and not a crash.
+TEST_F(ExternalLayoutTest, HostileCode) {
+    const auto before = [&](const std::string& text) {
+        copy_layout("array");
+        put_content(folder / "layout.glsl", text + content_of(folder / "layout.glsl"));
+    };
+    const std::string read = "#ifdef LAYOUT_READ\n", end = "\n#endif\n";
+    const auto in_more = [&](const std::string& statement) {
+        edit("layout.glsl", "{ return it.x < it.y; }", "{ " + statement + " return it.x < it.y; }");
+    };
+    before("#extension GL_EXT_buffer_reference_uvec2 : require\n" + read +
+           "layout(buffer_reference, scalar) buffer Wild { uint word; };\n" + end);
+    in_more("if (Wild(uvec2(it.x, 0u)).word == 7u) return true;");
+    expect_input_error({"SPIR-V capability", "PhysicalStorageBufferAddresses", path("layout.glsl")});
+
+    before("");
+    in_more("double d = double(it.x); if (d * d > 1.0e9LF) return true;");
+    expect_input_error({"SPIR-V capability Float64", path("layout.glsl")});
+
+    before("#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require\n");
+    in_more("if (uint64_t(it.x) * uint64_t(it.y) > 0xffffffffffffUL) return true;");
+    expect_input_error({"SPIR-V capability Int64", path("layout.glsl")});
+
+    before("");
+    in_more("uint large[2000000]; large[it.x] = it.y; if (large[it.y] == 7u) return true;");
+    expect_input_error({"local variables take 800", "more than 16384", path("layout.glsl")});
+
+    before("");
+    std::string sum = "1u";
+    for (int i = 0; i < 200'000; ++i) sum += " + it.x";
+    in_more("if (" + sum + " == 7u) return true;");
+    expect_input_error({"the compiler crashed", path("layout.glsl")});
+
+    std::string laughs = "#define L0 it.x\n";
+    for (int i = 1; i < 32; ++i) {
+        const std::string before_it = "L" + std::to_string(i - 1);
+        laughs += "#define L" + std::to_string(i) + " " + before_it + " + " + before_it + "\n";
+    }
+    before(laughs);
+    in_more("if (L31 == 7u) return true;");
+    expect_input_error({"the compiler ", path("layout.glsl")});
+}
+
+TEST_F(ExternalLayoutTest, IncludesAreBounded) {
+    copy_layout("array");
+    const std::string layout = content_of(folder / "layout.glsl");
+    // Each file includes the next one twice.
+    for (int i = 0; i < 30; ++i) {
+        const std::string next = "#include \"" + std::to_string(i + 1) + "\"\n";
+        put_content(folder / std::to_string(i), next + next);
+    }
+    put_content(folder / "30", "");
+    put_content(folder / "layout.glsl", "#include \"0\"\n" + layout);
+    expect_input_error({"includes are too many or too long", path("")});
+
+    put_content(folder / "layout.glsl", "#include \"long\"\n" + layout);
+    put_content(folder / "long", std::string(5 << 20, '\n'));
+    expect_input_error({"includes are too many or too long", path("layout.glsl:1")});
+}
+
+TEST_F(ExternalLayoutTest, LinksStayInTheFolder) {
+    copy_layout("array");
+    const std::string layout = content_of(folder / "layout.glsl");
+    std::filesystem::create_symlink(std::filesystem::path(GN_PATH(GNOMON_SOURCE_DIR)) / "README.md", folder / "link");
+    put_content(folder / "layout.glsl", "#include \"link\"\n" + layout);
+    expect_input_error({"no links out of it", path("layout.glsl:1")});
+    std::filesystem::remove(folder / "link");
+    put_content(folder / "inside", "");
+    std::filesystem::create_symlink("inside", folder / "link");
+    expect_same_frame(render(), render("array"));
 }
 
 TEST_F(ExternalLayoutTest, MustDeclareTheBuffersOfItsManifest) {
@@ -189,6 +298,43 @@ TEST_F(ExternalLayoutTest, IncludesOnlyFilesOfItsFolder) {
     }
     with_include("\"layout.glsl\"");
     expect_input_error({"layout does not compile", "nested too deeply", path("layout.glsl")});
+}
+
+TEST(RunApart, WhatAChildMayTake) {
+    std::string reason;
+    EXPECT_EQ(run_apart([] { return std::string("a\0b", 3); }, {}, reason), std::string("a\0b", 3));
+    EXPECT_EQ(run_apart([] { return std::string(1 << 20, 'x'); }, {}, reason).size(), 1u << 20);
+    EXPECT_EQ(reason, "");
+    const auto reason_of = [&](const std::function<std::string()>& work, const ChildLimits& limits) {
+        EXPECT_EQ(run_apart(work, limits, reason), "");
+        return reason;
+    };
+    using std::chrono::seconds;
+    EXPECT_EQ(reason_of([]() -> std::string { std::abort(); }, {}), "crashed (signal 6)");
+    EXPECT_EQ(reason_of([]() -> std::string { throw 1; }, {}), "failed");
+    EXPECT_EQ(reason_of([] { return std::string(100, 'x'); }, {.output_bytes = 99}), "made more than 0 MiB");
+    EXPECT_EQ(reason_of(
+                  [] {
+                      for (std::atomic<uint64_t> i = 0;;) ++i;
+                      return std::string();
+                  },
+                  {.seconds = seconds(1)}),
+              "took more than 1 s");
+    EXPECT_EQ(reason_of(
+                  [] {
+                      std::this_thread::sleep_for(seconds(60));
+                      return std::string();
+                  },
+                  {.seconds = seconds(1)}),
+              "took more than 1 s");
+    EXPECT_EQ(reason_of(
+                  [] {
+                      std::vector<std::string> all;
+                      for (;;) all.emplace_back(1 << 20, 'x');
+                      return std::string();
+                  },
+                  {.more_bytes = 64 << 20}),
+              "took more than 64 MiB");
 }
 
 }  // namespace

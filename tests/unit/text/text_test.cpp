@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include "text/json_bounds.hpp"
+#include "text/json_line.hpp"
 #include "text/printable.hpp"
 #include "text/read_text.hpp"
 #include "unit/io/test_folder.hpp"
@@ -47,6 +48,39 @@ TEST(CheckJson, DepthAndSizeAreBounded) {
     for (int i = 0; i < 500'000; ++i) objects += ",{}";
     EXPECT_GNOMON_ERROR(check_json(objects + "]", "", ""), ErrorKind::input, "more than 500000 objects");
     EXPECT_GNOMON_ERROR(check_json("{", "", ""), ErrorKind::input, "not valid JSON");
+}
+
+TEST(JsonLine, OfMembersAndElements) {
+    const std::string text = R"(
+{
+  "name": "a\"}]", "deep": [[1, {"x": []}], "]"],
+  "buffers": [ { "block": "A",
+                 "clear": -1.5e3 },
+               true,
+    { "block":
+        "B" }
+  ],
+
+  "last"
+     : 0
+})";
+    EXPECT_EQ(json_line(text, ""), 2u);
+    EXPECT_EQ(json_line(text, "/name"), 3u);
+    EXPECT_EQ(json_line(text, "/deep/1"), 3u);
+    EXPECT_EQ(json_line(text, "/buffers"), 4u);
+    EXPECT_EQ(json_line(text, "/buffers/0/block"), 4u);
+    EXPECT_EQ(json_line(text, "/buffers/0/clear"), 5u);
+    EXPECT_EQ(json_line(text, "/buffers/1"), 6u);
+    EXPECT_EQ(json_line(text, "/buffers/2"), 7u);
+    EXPECT_EQ(json_line(text, "/last"), 11u);
+    // What is not there: its parent.
+    EXPECT_EQ(json_line(text, "/buffers/2/clear"), 7u);
+    EXPECT_EQ(json_line(text, "/buffers/3/clear"), 4u);
+    EXPECT_EQ(json_line(text, "/none"), 2u);
+    EXPECT_EQ(json_line(text, "/last/none/0"), 11u);
+    EXPECT_EQ(json_line("1", "/a"), 1u);
+    EXPECT_EQ(json_line("[]", "/0"), 1u);
+    EXPECT_EQ(json_line("{}", "/a"), 1u);
 }
 
 class ReadTextTest : public TestFolder {};
