@@ -40,7 +40,7 @@ int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::
             return fail(parse_error_text(app, error) + ", command line; see '" + tool.name + " --help'", ErrorKind::usage);
         }
         refuse_empty_values(app);
-        io::remove_unfinished_files_on_signals();
+        io::end_cleanly_on_signals(tool.name);
         run(options);
         return 0;
     } catch (const Error& error) {

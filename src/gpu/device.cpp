@@ -267,6 +267,8 @@ double Device::longest_dispatch_seconds() const { return impl_->longest_dispatch
 
 uint64_t Device::submissions() const { return impl_->submissions; }
 
+void Device::on_submission(std::function<void()> call) { impl_->after_submission = std::move(call); }
+
 void Device::reset_statistics() {
     recorder().submit();
     impl_->submissions = 0;

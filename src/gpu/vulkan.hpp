@@ -153,6 +153,7 @@ struct Device::Impl {
     std::map<std::string, uint64_t> largest_by_name;
     std::vector<StageTime> stage_times;
     uint64_t submissions = 0;
+    std::function<void()> after_submission;
     double longest_dispatch_seconds = 0.0;
     Pace pace{0.0};
 };
