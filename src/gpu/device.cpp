@@ -147,6 +147,7 @@ Commands Device::Impl::take_commands() {
         check(vkResetCommandPool(device.get(), commands.pool.get(), 0), "reset a command pool");
         return commands;
     }
+    idle_commands.reserve(++commands_made);  // To put them back needs no memory.
     const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                             .queueFamilyIndex = candidate.queue_family};
     commands.pool = create<OwnedCommandPool>(device.get(), vkCreateCommandPool, pool_info, "a command pool");
@@ -161,7 +162,10 @@ Commands Device::Impl::take_commands() {
 void Device::Impl::put_back(Commands commands) { idle_commands.push_back(std::move(commands)); }
 
 std::unique_ptr<RecorderState> Device::Impl::take_state() {
-    if (idle_states.empty()) return std::make_unique<RecorderState>(*this);
+    if (idle_states.empty()) {
+        idle_states.reserve(++states_made);
+        return std::make_unique<RecorderState>(*this);
+    }
     std::unique_ptr<RecorderState> state = std::move(idle_states.back());
     idle_states.pop_back();
     check(vkResetCommandPool(device.get(), state->commands.pool.get(), 0), "reset a command pool");
@@ -220,10 +224,11 @@ void Device::Impl::set_object_name(VkObjectType type, uint64_t handle, const std
 }
 
 void Device::Impl::add_live(const std::string& name, uint64_t bytes) {
+    uint64_t& live = live_by_name[name];
+    uint64_t& largest = largest_by_name[name];  // Nothing is counted where there is no memory to count it in.
+    live += bytes;
     live_bytes += bytes;
-    live_by_name[name] += bytes;
     peak_bytes = std::max(peak_bytes, live_bytes);
-    uint64_t& largest = largest_by_name[name];
     largest = std::max(largest, bytes);
 }
 

@@ -141,8 +141,10 @@ struct Device::Impl {
     VkQueue queue = VK_NULL_HANDLE;
     OwnedFence fence;
     std::vector<Commands> idle_commands;
+    size_t commands_made = 0;
     std::map<std::pair<uint32_t, bool>, MemoryPool> pools;  ///< By memory type and whether they are mapped.
     std::vector<std::unique_ptr<RecorderState>> idle_states;
+    size_t states_made = 0;
 
     Recorder::Impl* shared_recorder = nullptr;  ///< Device::recorder()'s, which runs before what others submit.
     size_t messages_thrown = 0;

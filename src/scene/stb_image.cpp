@@ -45,6 +45,12 @@ uint64_t most_texels_of_byte(std::span<const uint8_t> file) {
     return file[0] == kJpeg ? 8 * 64 : 8 * 1032;
 }
 
+// Of some damage stb_image has nothing to say.
+std::string failure_reason() {
+    const char* reason = stbi_failure_reason();
+    return reason != nullptr && *reason != '\0' ? reason : "its data are damaged";
+}
+
 }  // namespace
 
 std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& reason) {
@@ -53,7 +59,7 @@ std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& 
     int height = 0;
     int channels = 0;
     if (stbi_info_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels) == 0) {
-        reason = stbi_failure_reason();
+        reason = failure_reason();
         return std::nullopt;
     }
     if (static_cast<uint64_t>(width) * static_cast<uint64_t>(height) > file.size() * most_texels_of_byte(file)) {
@@ -73,7 +79,7 @@ std::vector<uint8_t> decode_rgba(std::span<const uint8_t> file, ImageSize size, 
     const std::unique_ptr<stbi_uc, void (*)(void*)> texels(
         stbi_load_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels, 4), stbi_image_free);
     if (!texels) {
-        reason = stbi_failure_reason();
+        reason = failure_reason();
         return {};
     }
     return {texels.get(), texels.get() + size_t{4} * static_cast<size_t>(width) * static_cast<size_t>(height)};

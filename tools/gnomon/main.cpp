@@ -28,9 +28,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
     // A file over the limit on sizes is then an error of the write, and its temporary file is removed.
     std::signal(SIGXFSZ, SIG_IGN);
-    gnomon::io::end_cleanly_on_signals("gnomon");
-    gnomon::cli::start_log();
     try {
+        gnomon::io::end_cleanly_on_signals("gnomon");
+        gnomon::cli::start_log();
         const int exit_code = run(argc, argv);
         if (!std::cout.flush())
             throw Error(ErrorKind::input, "cannot write the results", "standard output", "send them to a file with free space");
