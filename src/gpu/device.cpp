@@ -81,12 +81,13 @@ void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 to_st
 
 }  // namespace
 
-void check(VkResult result, const std::string& what, const std::string& where) {
+void check(VkResult result, std::string_view what, std::string_view where) {
     if (result >= VK_SUCCESS) return;
     const Result explained = explain(result);
     throw Error(explained.kind,
-                "cannot " + what + ": " + explained.meaning + " (VkResult " + std::to_string(static_cast<int>(result)) + ")",
-                where, explained.hint);
+                "cannot " + std::string(what) + ": " + explained.meaning + " (VkResult " +
+                    std::to_string(static_cast<int>(result)) + ")",
+                std::string(where), explained.hint);
 }
 
 void record_barrier(VkCommandBuffer commands) { record_memory_barrier(commands, kStages, kReads | kWrites); }

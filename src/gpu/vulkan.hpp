@@ -22,12 +22,11 @@
 namespace gnomon::gpu {
 
 /// Throw unless the result is a success. `what` completes "cannot ...". Errors: out_of_memory, device_lost, else internal.
-void check(VkResult result, const std::string& what, const std::string& where = "");
+void check(VkResult result, std::string_view what, std::string_view where = "");
 
 /// vkCreate...(device, &info, nullptr, &handle) as an Owned.
 template <class OwnedT, class Create, class Info>
-OwnedT create(VkDevice device, Create create_function, const Info& info, const std::string& what,
-              const std::string& where = "") {
+OwnedT create(VkDevice device, Create create_function, const Info& info, const std::string& what, std::string_view where = "") {
     decltype(std::declval<OwnedT>().get()) handle = VK_NULL_HANDLE;
     check(create_function(device, &info, nullptr, &handle), "create " + what, where);
     return OwnedT(device, handle);

@@ -13,8 +13,11 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <gnomon/error.hpp>
 #include <mutex>
+#include <new>
 #include <set>
 #include <string>
 #include <system_error>
@@ -123,18 +126,26 @@ void forget_unfinished(const char* name) {
     }
 }
 
-std::string interrupted;  // What is said then; over a progress bar, where there may be one.
+// What is said at the end; over a progress bar, where there may be one.
+std::string interrupted, without_memory = "error: out of memory, on the host\n";
 
-// Only what may be called in a signal's handler.
-void end_cleanly(int signal) {
+// This and what is below only calls what may be called in a signal's handler.
+void remove_unfinished() {
     for (const std::atomic<const char*>& place : unfinished) {
         if (const char* name = place) ::unlink(name);
     }
-    if (signal == SIGINT || signal == SIGTERM) {
-        constexpr int kInterrupted = 130;
-        [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, interrupted.data(), interrupted.size());
-        ::_exit(kInterrupted);
-    }
+}
+
+[[noreturn]] void end(const std::string& message, int exit_code) {
+    remove_unfinished();
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+    ::_exit(exit_code);
+}
+
+void end_by_signal(int signal) {
+    constexpr int kInterrupted = 130;
+    if (signal == SIGINT || signal == SIGTERM) end(interrupted, kInterrupted);
+    remove_unfinished();
     // The process ends by it once this has returned.
     std::signal(signal, SIG_DFL);
     std::raise(signal);
@@ -209,14 +220,28 @@ void AtomicFile::fail(int error) {
     throw_cannot_write(path_, std::generic_category().message(error), hint_for(error));
 }
 
-void end_cleanly_on_signals(const std::string& program) {
-    interrupted = (::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "") + program + ": error: interrupted; run it again\n";
+void end_without_memory() { end(without_memory, static_cast<int>(ErrorKind::out_of_memory)); }
+
+void end_cleanly(const std::string& program, const std::string& hint) {
+    const std::string start = (::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "") + program + ": error: ";
+    interrupted = start + "interrupted; run it again\n";
+    without_memory = start + "out of memory, on the host; " + hint + "\n";
+    // Destructors, of JSON for one, may need memory, and may not throw.
+    std::set_terminate([] {
+        try {
+            if (const std::exception_ptr current = std::current_exception()) std::rethrow_exception(current);
+        } catch (const std::bad_alloc&) {
+            end_without_memory();
+        } catch (...) {
+        }
+        std::abort();
+    });
     for (const int signal :
          {SIGHUP, SIGINT, SIGQUIT, SIGPIPE, SIGALRM, SIGTERM, SIGXCPU, SIGVTALRM, SIGPROF, SIGUSR1, SIGUSR2}) {
         struct sigaction action {};
         sigaction(signal, nullptr, &action);
         if (action.sa_handler != SIG_DFL) continue;
-        action.sa_handler = end_cleanly;
+        action.sa_handler = end_by_signal;
         action.sa_flags = SA_RESTART;
         sigaction(signal, &action, nullptr);
     }

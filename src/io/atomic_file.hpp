@@ -45,8 +45,12 @@ private:
 
 /// From now on signals that end the process by default, as SIGQUIT or SIGXCPU, remove the temporary files first. SIGINT and
 /// SIGTERM then say on stderr that `program` was interrupted, and end it at once with exit code 130, whatever it is doing.
-/// Signals that are ignored stay so. To be called once.
-void end_cleanly_on_signals(const std::string& program);
+/// Signals that are ignored stay so. Where std::terminate is called because there is no memory, end_without_memory() is, with
+/// `hint` as what to do. To be called once.
+void end_cleanly(const std::string& program, const std::string& hint);
+
+/// Remove the temporary files, say on stderr that the host is out of memory, and end with exit code 5: with none to be had.
+[[noreturn]] void end_without_memory();
 
 /// Throws the error that writing `path` would end in, as far as that can be known before. Leaves no file behind.
 void check_writable(const std::filesystem::path& path);

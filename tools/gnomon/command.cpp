@@ -6,7 +6,6 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <memory>
@@ -37,14 +36,8 @@ CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& 
     return command;
 }
 
-bool is_given(const CLI::App& command, const std::string& option) {
-    const auto is_it = [&](const CLI::Option* other) { return other->check_name(option); };
-    const std::vector<const CLI::Option*> found = command.get_options(is_it);
-    return std::any_of(found.begin(), found.end(), [](const CLI::Option* it) { return it->count() > 0; });
-}
-
 void warn_if_unused(const CLI::App& command, const std::string& option, const std::string& needed) {
-    if (is_given(command, option) && !is_given(command, needed)) spdlog::warn("{} has no effect without {}", option, needed);
+    if (command.count(option) > 0 && command.count(needed) == 0) spdlog::warn("{} has no effect without {}", option, needed);
 }
 
 void start_log() {

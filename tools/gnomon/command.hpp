@@ -24,9 +24,6 @@ struct Invocation {
 /// A subcommand with the options that all have.
 CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& name, const std::string& description);
 
-/// Was the option given? CLI::App::count is noexcept, but needs memory.
-bool is_given(const CLI::App& command, const std::string& option);
-
 /// Warn where an option was given that has no effect without another one.
 void warn_if_unused(const CLI::App& command, const std::string& option, const std::string& needed);
 

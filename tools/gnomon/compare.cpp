@@ -18,7 +18,7 @@ bool is_json(const std::string& path) { return path.ends_with(".json") || path.e
 /// Options of what is not done are errors.
 void refuse(const CLI::App& command, std::initializer_list<const char*> options, const std::string& where_they_belong) {
     for (const char* option : options)
-        if (is_given(command, option))
+        if (command.count(option) > 0)
             throw Error(ErrorKind::usage, std::string(option) + " is for " + where_they_belong, option, "leave it out");
 }
 

@@ -29,7 +29,7 @@ int main(int argc, char** argv) {
     // A file over the limit on sizes is then an error of the write, and its temporary file is removed.
     std::signal(SIGXFSZ, SIG_IGN);
     try {
-        gnomon::io::end_cleanly_on_signals("gnomon");
+        gnomon::io::end_cleanly("gnomon", "render a smaller image or a smaller scene");
         gnomon::cli::start_log();
         const int exit_code = run(argc, argv);
         if (!std::cout.flush())
@@ -39,8 +39,7 @@ int main(int argc, char** argv) {
         spdlog::error("{}", error.what());
         return error.exit_code();
     } catch (const std::bad_alloc&) {
-        spdlog::error("out of memory, on the host; render a smaller image or a smaller scene");
-        return static_cast<int>(ErrorKind::out_of_memory);
+        gnomon::io::end_without_memory();
     } catch (const std::exception& error) {
         spdlog::error("internal error: {}, gnomon " GNOMON_VERSION "; please report it", error.what());
         return static_cast<int>(ErrorKind::internal);

@@ -124,7 +124,7 @@ void add_render(CLI::App& app, Invocation& invocation) {
             warn_if_unused(*command, "--fps", "--frames");
             warn_if_unused(*command, "--shutter-angle", "--frames");
             const std::string& method = options->settings.method;
-            if (is_given(*command, "--layout") && !find_method(method).has_s_buffer())
+            if (command->count("--layout") > 0 && !find_method(method).has_s_buffer())
                 throw Error(ErrorKind::usage, "method " + method + " has no S-buffer", "--layout", "leave it out");
             return render(*options, invocation.quiet);
         };

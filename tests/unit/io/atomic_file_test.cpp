@@ -132,7 +132,7 @@ TEST_F(AtomicFileTest, SignalsThatEndTheProcessLeaveNothing) {
         if (child == 0) {
             const rlimit no_core{0, 0};
             setrlimit(RLIMIT_CORE, &no_core);
-            io::end_cleanly_on_signals("test");
+            io::end_cleanly("test", "");
             AtomicFile first(folder / "a.txt"), second(folder / "b.txt");
             first.write(bytes_of("part"));
             std::raise(signal);
@@ -153,7 +153,7 @@ TEST_F(AtomicFileTest, SignalsThatAreIgnoredStaySo) {
     const pid_t child = fork();
     if (child == 0) {
         std::signal(SIGHUP, SIG_IGN);  // As by nohup.
-        io::end_cleanly_on_signals("test");
+        io::end_cleanly("test", "");
         AtomicFile file(folder / "a.txt");
         std::raise(SIGHUP);
         file.commit();
