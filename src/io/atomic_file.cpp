@@ -14,6 +14,7 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <gnomon/error.hpp>
 #include <mutex>
@@ -127,7 +128,8 @@ void forget_unfinished(const char* name) {
 }
 
 // What is said at the end; over a progress bar, where there may be one.
-std::string interrupted, without_memory = "error: out of memory, on the host\n";
+using Message = std::array<char, 256>;
+Message interrupted{}, without_memory{};
 
 // This and what is below only calls what may be called in a signal's handler.
 void remove_unfinished() {
@@ -136,9 +138,9 @@ void remove_unfinished() {
     }
 }
 
-[[noreturn]] void end(const std::string& message, int exit_code) {
+[[noreturn]] void end(const Message& message, int exit_code) {
     remove_unfinished();
-    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), message.size());
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, message.data(), std::strlen(message.data()));
     ::_exit(exit_code);
 }
 
@@ -222,10 +224,11 @@ void AtomicFile::fail(int error) {
 
 void end_without_memory() { end(without_memory, static_cast<int>(ErrorKind::out_of_memory)); }
 
-void end_cleanly(const std::string& program, const std::string& hint) {
-    const std::string start = (::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "") + program + ": error: ";
-    interrupted = start + "interrupted; run it again\n";
-    without_memory = start + "out of memory, on the host; " + hint + "\n";
+void end_cleanly(const char* program, const char* hint) {
+    const char* over = ::isatty(STDERR_FILENO) != 0 ? "\r\x1b[K" : "";
+    std::snprintf(interrupted.data(), interrupted.size(), "%s%s: error: interrupted; run it again\n", over, program);
+    std::snprintf(without_memory.data(), without_memory.size(), "%s%s: error: out of memory, on the host; %s\n", over, program,
+                  hint);
     // Destructors, of JSON for one, may need memory, and may not throw.
     std::set_terminate([] {
         try {

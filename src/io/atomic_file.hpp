@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <string>
 #include <string_view>
 
 namespace gnomon::io {
@@ -47,7 +46,7 @@ private:
 /// SIGTERM then say on stderr that `program` was interrupted, and end it at once with exit code 130, whatever it is doing.
 /// Signals that are ignored stay so. Where std::terminate is called because there is no memory, end_without_memory() is, with
 /// `hint` as what to do. To be called once.
-void end_cleanly(const std::string& program, const std::string& hint);
+void end_cleanly(const char* program, const char* hint);
 
 /// Remove the temporary files, say on stderr that the host is out of memory, and end with exit code 5: with none to be had.
 [[noreturn]] void end_without_memory();

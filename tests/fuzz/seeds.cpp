@@ -82,7 +82,8 @@ std::string jpeg(int channels, int quality) {
 
 // Each key and each text of a document.
 void words_of(const json& value, std::set<std::string>& words) {
-    if (value.is_string() && value.get<std::string>().size() < 40) words.insert(value);
+    const bool is_word = value.is_string() && !value.get<std::string>().empty() && value.get<std::string>().size() < 40;
+    if (is_word) words.insert(value);
     if (value.is_object()) {
         for (const auto& [key, member] : value.items()) words.insert(key);
     }

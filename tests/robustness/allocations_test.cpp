@@ -19,13 +19,15 @@ using Names = std::set<std::string>;
 class Allocations : public RobustnessTest {
 protected:
     void SetUp() override {
+        if (!std::filesystem::exists(GN_PATH(GNOMON_FAIL_ALLOCATION))) GTEST_SKIP() << "skipped: no fail_allocation.so";
         RobustnessTest::SetUp();
         put_content(folder / "a.gltf", tiny_scene());
     }
 
-    CommandResult run(const char* what, uint64_t first, const char* count) {
-        return run_gnomon(folder, render, [&] {
-            setenv("FAIL_ALLOCATION", what, 1);
+    CommandResult run(const std::string& what, uint64_t first, const char* count) {
+        return run_gnomon(folder, what == "device" ? larger : render, [&] {
+            if (what == "device") setenv("GNOMON_LIMITS", "mapped=0", 1);
+            setenv("FAIL_ALLOCATION", what.c_str(), 1);
             setenv("FAIL_ALLOCATION_FIRST", std::to_string(first).c_str(), 1);
             setenv("FAIL_ALLOCATION_COUNT", count, 1);
             setenv("FAIL_ALLOCATION_REPORT", "report", 1);
@@ -73,6 +75,12 @@ protected:
 
     const std::vector<std::string> render = {"render",       "a.gltf",  "-oa.exr", "--png=a.png",     "--json=a.json",
                                              "--size=16x16", "--spp=1", "--quiet", "--shadow-res=16", "--ground=auto"};
+    // Of which some buffers have a block of memory of their own, and more memory is for copies.
+    const std::vector<std::string> larger = {"render",        GN_PATH(GNOMON_SOURCE_DIR) + "/scenes/random-cubes.gltf",
+                                             "-oa.exr",       "--png=a.png",
+                                             "--json=a.json", "--size=320x240",
+                                             "--spp=4",       "--quiet",
+                                             "--pages=all",   "--time-steps=8"};
     size_t done_ = 0, refused_ = 0;
 
 private:
