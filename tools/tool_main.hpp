@@ -29,6 +29,7 @@ int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::
         return static_cast<int>(kind);
     };
     try {
+        io::end_cleanly(tool.name, tool.out_of_memory);
         CLI::App app(tool.description, tool.name);
         Options options;
         add_options(app, options);
@@ -40,13 +41,12 @@ int tool_main(const Tool& tool, int argc, char** argv, void (*add_options)(CLI::
             return fail(parse_error_text(app, error) + ", command line; see '" + tool.name + " --help'", ErrorKind::usage);
         }
         refuse_empty_values(app);
-        io::remove_unfinished_files_on_signals();
         run(options);
         return 0;
     } catch (const Error& error) {
         return fail(error.what(), error.kind());
     } catch (const std::bad_alloc&) {
-        return fail(std::string("out of memory, on the host; ") + tool.out_of_memory, ErrorKind::out_of_memory);
+        io::end_without_memory();
     } catch (const std::exception& error) {
         return fail(std::string("internal error: ") + error.what(), ErrorKind::internal);
     }

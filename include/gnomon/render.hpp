@@ -110,7 +110,8 @@ struct Frame {
     }
 };
 
-/// Called now and then with the share done, 0 to 1. Returning false stops the frame.
+/// Called with the share done, 0 to 1, at first and after each submission to the device: about a quarter of a second apart or
+/// less, but where the driver compiles. Returning false stops the frame, whose channels are then 0.
 using Progress = std::function<bool(double)>;
 
 struct DeviceDescription {

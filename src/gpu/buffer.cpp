@@ -141,8 +141,8 @@ Buffer Device::allocate(const std::string& name, uint64_t bytes) {
     constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     const std::array preferences{impl_->limits.mapped ? kLocal | kHostReadable : kLocal};
     buffer.impl_->memory = impl_->make_memory(name, buffer.impl_->capacity, kUsage, preferences, impl_->limits.mapped);
-    buffer.impl_->bytes = bytes;
     impl_->add_live(name, bytes);
+    buffer.impl_->bytes = bytes;
     return buffer;
 }
 

@@ -78,12 +78,13 @@ void record_memory_barrier(VkCommandBuffer commands, VkPipelineStageFlags2 to_st
 
 }  // namespace
 
-void check(VkResult result, const std::string& what, const std::string& where) {
+void check(VkResult result, std::string_view what, std::string_view where) {
     if (result >= VK_SUCCESS) return;
     const Result explained = explain(result);
     throw Error(explained.kind,
-                "cannot " + what + ": " + explained.meaning + " (VkResult " + std::to_string(static_cast<int>(result)) + ")",
-                where, explained.hint);
+                "cannot " + std::string(what) + ": " + explained.meaning + " (VkResult " +
+                    std::to_string(static_cast<int>(result)) + ")",
+                std::string(where), explained.hint);
 }
 
 void record_barrier(VkCommandBuffer commands) { record_memory_barrier(commands, kStages, kReads | kWrites); }
@@ -119,6 +120,7 @@ Commands Device::Impl::take_commands() {
         check(vkResetCommandPool(device.get(), commands.pool.get(), 0), "reset a command pool");
         return commands;
     }
+    idle_commands.reserve(++commands_made);  // To put them back needs no memory.
     const VkCommandPoolCreateInfo pool_info{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                             .queueFamilyIndex = candidate.queue_family};
     commands.pool = create<OwnedCommandPool>(device.get(), vkCreateCommandPool, pool_info, "a command pool");
@@ -133,7 +135,10 @@ Commands Device::Impl::take_commands() {
 void Device::Impl::put_back(Commands commands) { idle_commands.push_back(std::move(commands)); }
 
 std::unique_ptr<RecorderState> Device::Impl::take_state() {
-    if (idle_states.empty()) return std::make_unique<RecorderState>(*this);
+    if (idle_states.empty()) {
+        idle_states.reserve(++states_made);
+        return std::make_unique<RecorderState>(*this);
+    }
     std::unique_ptr<RecorderState> state = std::move(idle_states.back());
     idle_states.pop_back();
     check(vkResetCommandPool(device.get(), state->commands.pool.get(), 0), "reset a command pool");
@@ -192,10 +197,11 @@ void Device::Impl::set_object_name(VkObjectType type, uint64_t handle, const std
 }
 
 void Device::Impl::add_live(const std::string& name, uint64_t bytes) {
+    uint64_t& live = live_by_name[name];
+    uint64_t& largest = largest_by_name[name];  // Nothing is counted where there is no memory to count it in.
+    live += bytes;
     live_bytes += bytes;
-    live_by_name[name] += bytes;
     peak_bytes = std::max(peak_bytes, live_bytes);
-    uint64_t& largest = largest_by_name[name];
     largest = std::max(largest, bytes);
 }
 
@@ -238,6 +244,8 @@ std::vector<StageTime> Device::stage_times() const { return impl_->stage_times; 
 double Device::longest_dispatch_seconds() const { return impl_->longest_dispatch_seconds; }
 
 uint64_t Device::submissions() const { return impl_->submissions; }
+
+void Device::on_submission(std::function<void()> call) { impl_->after_submission = std::move(call); }
 
 void Device::reset_statistics() {
     recorder().submit();

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <gnomon/render.hpp>
 #include <map>
 #include <memory>
@@ -171,7 +172,10 @@ public:
     /// Of all that ran as one, a dispatch or a piece of one, since the last reset. Without timestamps an estimate.
     double longest_dispatch_seconds() const;
     uint64_t submissions() const;  ///< Since the last reset; each is waited for.
-    void reset_statistics();       ///< Stage times, longest dispatch, submissions; peak and largest bytes are those of now.
+    /// From now on called after each submission, at most about a quarter of a second apart while the device works. What it
+    /// throws comes out of what submitted; what was recorded is forgotten.
+    void on_submission(std::function<void()> call);
+    void reset_statistics();  ///< Stage times, longest dispatch, submissions; peak and largest bytes are those of now.
 
     struct Impl;
     const std::shared_ptr<Impl>& impl() const { return impl_; }

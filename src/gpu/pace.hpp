@@ -45,7 +45,7 @@ public:
     double merged_seconds() const { return piece_seconds_ / 8; }
 
 private:
-    static constexpr double kPiecesPerSubmission = 10.0;
+    static constexpr double kPiecesPerSubmission = 5.0;
 
     struct Known {
         double seconds_per_group = 0.0;

@@ -31,11 +31,11 @@ MemoryPool::Place MemoryPool::find(uint64_t bytes, uint64_t alignment) const {
     Place best;
     for (const auto& block : blocks_) {
         if (block->alone != alone || (alone && block->bytes / 2 > bytes)) continue;
-        for (const auto& [offset, size] : block->gaps) {
-            const uint64_t aligned = (offset + alignment - 1) / alignment * alignment;
-            const uint64_t lost = aligned - offset;
-            if ((alone && !block->empty()) || lost + bytes > size) continue;
-            if (!best.block || size - bytes < best.spare) best = {block.get(), offset, aligned, size - bytes};
+        for (size_t i = 0; i < block->gaps.size(); ++i) {
+            const Gap& gap = block->gaps[i];
+            const uint64_t aligned = (gap.offset + alignment - 1) / alignment * alignment;
+            if ((alone && !block->empty()) || aligned - gap.offset + bytes > gap.bytes) continue;
+            if (!best.block || gap.bytes - bytes < best.spare) best = {block.get(), i, aligned, gap.bytes - bytes};
         }
     }
     return best;
@@ -65,15 +65,20 @@ VkResult MemoryPool::add_block(uint64_t bytes, bool alone, uint64_t keep_within)
 }
 
 MemoryPool::Piece MemoryPool::cut(const Place& place, uint64_t bytes) {
-    const auto gap = place.block->gaps.find(place.gap);
-    const uint64_t end = gap->first + gap->second;
-    if (place.offset > gap->first) {
-        gap->second = place.offset - gap->first;
+    Block& block = *place.block;
+    if (block.gaps.capacity() < block.pieces + 2) block.gaps.reserve(2 * (block.pieces + 2));
+    ++block.pieces;
+    const auto gap = block.gaps.begin() + static_cast<std::ptrdiff_t>(place.gap);
+    const Gap before{gap->offset, place.offset - gap->offset}, after{place.offset + bytes, gap->end() - place.offset - bytes};
+    if (before.bytes > 0 && after.bytes > 0) {
+        *gap = after;
+        block.gaps.insert(gap, before);
+    } else if (before.bytes + after.bytes > 0) {
+        *gap = before.bytes > 0 ? before : after;
     } else {
-        place.block->gaps.erase(gap);
+        block.gaps.erase(gap);
     }
-    if (place.offset + bytes < end) place.block->gaps[place.offset + bytes] = end - place.offset - bytes;
-    return Piece(*this, *place.block, place.offset, bytes);
+    return Piece(*this, block, place.offset, bytes);
 }
 
 VkResult MemoryPool::take(uint64_t bytes, uint64_t alignment, uint64_t keep_within, Piece& piece) {
@@ -95,18 +100,18 @@ VkResult MemoryPool::take(uint64_t bytes, uint64_t alignment, uint64_t keep_with
     return VK_SUCCESS;
 }
 
-void MemoryPool::put_back(Block& block, uint64_t offset, uint64_t bytes) {
-    auto gap = block.gaps.emplace(offset, bytes).first;
-    const auto after = std::next(gap);
-    if (after != block.gaps.end() && offset + bytes == after->first) {
-        gap->second += after->second;
-        block.gaps.erase(after);
-    }
-    if (gap == block.gaps.begin()) return;
-    const auto before = std::prev(gap);
-    if (before->first + before->second == offset) {
-        before->second += gap->second;
-        block.gaps.erase(gap);
+void MemoryPool::put_back(Block& block, uint64_t offset, uint64_t bytes) noexcept {
+    --block.pieces;
+    const auto after = std::ranges::lower_bound(block.gaps, offset, {}, &Gap::offset);
+    const bool joins_after = after != block.gaps.end() && offset + bytes == after->offset;
+    const bool joins_before = after != block.gaps.begin() && std::prev(after)->end() == offset;
+    if (joins_before) {
+        std::prev(after)->bytes += bytes + (joins_after ? after->bytes : 0);
+        if (joins_after) block.gaps.erase(after);
+    } else if (joins_after) {
+        *after = {offset, bytes + after->bytes};
+    } else {
+        block.gaps.insert(after, {offset, bytes});
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -53,17 +52,24 @@ public:
     uint64_t held_bytes() const { return held_bytes_; }
 
 private:
+    struct Gap {
+        uint64_t offset = 0;
+        uint64_t bytes = 0;
+        uint64_t end() const { return offset + bytes; }
+    };
     struct Block {
         OwnedMemory memory;
         uint64_t bytes = 0;
         std::byte* mapped = nullptr;
-        bool alone = false;                 // for one piece
-        std::map<uint64_t, uint64_t> gaps;  // offset: bytes
-        bool empty() const { return gaps.size() == 1 && gaps.begin()->second == bytes; }
+        bool alone = false;  // for one piece
+        std::vector<Gap>
+            gaps;  // by offset; with room for one more than there are pieces, so that to put one back needs no memory
+        size_t pieces = 0;
+        bool empty() const { return pieces == 0; }
     };
     struct Place {
         Block* block = nullptr;
-        uint64_t gap = 0;
+        size_t gap = 0;  // Its number.
         uint64_t offset = 0;
         uint64_t spare = 0;
     };
@@ -71,7 +77,7 @@ private:
     Place find(uint64_t bytes, uint64_t alignment) const;
     VkResult add_block(uint64_t bytes, bool alone, uint64_t keep_within);
     Piece cut(const Place& place, uint64_t bytes);
-    void put_back(Block& block, uint64_t offset, uint64_t bytes);
+    void put_back(Block& block, uint64_t offset, uint64_t bytes) noexcept;
 
     VkDevice device_;
     uint32_t memory_type_;

@@ -194,6 +194,7 @@ void Recorder::Impl::flush() {
             const double seconds = device->submit_and_wait(state->commands.buffer);
             finish_fetches();
             account(seconds);
+            if (device->after_submission) device->after_submission();
             check(vkResetCommandPool(device->device.get(), state->commands.pool.get(), 0), "reset a command pool");
         } else {
             finish_fetches();

@@ -22,12 +22,11 @@
 namespace gnomon::gpu {
 
 /// Throw unless the result is a success. `what` completes "cannot ...". Errors: out_of_memory, device_lost, else internal.
-void check(VkResult result, const std::string& what, const std::string& where = "");
+void check(VkResult result, std::string_view what, std::string_view where = "");
 
 /// vkCreate...(device, &info, nullptr, &handle) as an Owned.
 template <class OwnedT, class Create, class Info>
-OwnedT create(VkDevice device, Create create_function, const Info& info, const std::string& what,
-              const std::string& where = "") {
+OwnedT create(VkDevice device, Create create_function, const Info& info, const std::string& what, std::string_view where = "") {
     decltype(std::declval<OwnedT>().get()) handle = VK_NULL_HANDLE;
     check(create_function(device, &info, nullptr, &handle), "create " + what, where);
     return OwnedT(device, handle);
@@ -142,8 +141,10 @@ struct Device::Impl {
     VkQueue queue = VK_NULL_HANDLE;
     OwnedFence fence;
     std::vector<Commands> idle_commands;
+    size_t commands_made = 0;
     std::map<std::pair<uint32_t, bool>, MemoryPool> pools;  ///< By memory type and whether they are mapped.
     std::vector<std::unique_ptr<RecorderState>> idle_states;
+    size_t states_made = 0;
 
     Recorder::Impl* shared_recorder = nullptr;  ///< Device::recorder()'s, which runs before what others submit.
     size_t messages_thrown = 0;
@@ -154,6 +155,7 @@ struct Device::Impl {
     std::map<std::string, uint64_t> largest_by_name;
     std::vector<StageTime> stage_times;
     uint64_t submissions = 0;
+    std::function<void()> after_submission;
     double longest_dispatch_seconds = 0.0;
     Pace pace{0.0};
 };

@@ -11,7 +11,8 @@
 namespace gnomon::io {
 
 /// A file that is written under a temporary name in the folder of `path` and takes its own name in commit(). Without a commit
-/// nothing is left behind, and what was there under `path` before stays as it was. A file that replaces another has its mode.
+/// nothing is left behind, and what was there under `path` before stays as it was. What a process that was killed left in the
+/// folder is removed by the next one that writes there. A file that replaces another has its mode.
 /// A symbolic link is followed, not replaced, as by whatever opens a file to write: where it leads to nothing yet, that is
 /// made. Errors, of all members: ErrorKind::input with the system's reason: no such folder, not writable, no space left, `path`
 /// is a folder or a device.
@@ -41,9 +42,14 @@ private:
     uint64_t position_ = 0;
 };
 
-/// From now on signals that end the process by default, as SIGINT, SIGQUIT or SIGXCPU, remove the temporary files first. Those
-/// that are ignored stay so.
-void remove_unfinished_files_on_signals();
+/// From now on signals that end the process by default, as SIGQUIT or SIGXCPU, remove the temporary files first. SIGINT and
+/// SIGTERM then say on stderr that `program` was interrupted, and end it at once with exit code 130, whatever it is doing.
+/// Signals that are ignored stay so. Where std::terminate is called because there is no memory, end_without_memory() is, with
+/// `hint` as what to do. To be called once.
+void end_cleanly(const char* program, const char* hint);
+
+/// Remove the temporary files, say on stderr that the host is out of memory, and end with exit code 5: with none to be had.
+[[noreturn]] void end_without_memory();
 
 /// Throws the error that writing `path` would end in, as far as that can be known before. Leaves no file behind.
 void check_writable(const std::filesystem::path& path);

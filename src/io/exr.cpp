@@ -157,6 +157,8 @@ void write_exr(const std::filesystem::path& path, uint32_t width, uint32_t heigh
         output.writePixels(static_cast<int>(height));
     } catch (const Error&) {
         throw;
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw Error(ErrorKind::internal, std::string("OpenEXR refused the image: ") + error.what(), path.string(),
                     "please report it");

@@ -42,12 +42,6 @@ void read_film(gpu::Device& device, const gpu::Buffer& film, Frame& frame, const
     device.recorder().download(film, parts, 0);
 }
 
-void clear_film(Frame& frame, const WindowRect& rect) {
-    for (Channel& channel : frame.channels) {
-        for (uint32_t row = 0; row < rect.size_px.y; ++row) std::ranges::fill(row_of(frame, channel, rect, row), 0.0f);
-    }
-}
-
 void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp,
                   bool fractional) {
     frame.keep_samples(size_t(frame.width) * frame.height * spp);

@@ -15,9 +15,6 @@ void make_channels(Frame& frame);
 /// Read a window's film, as Sampler::resolve() leaves it, to the frame. Runs what was recorded.
 void read_film(gpu::Device& device, const gpu::Buffer& film, Frame& frame, const WindowRect& rect);
 
-/// Of a window without a film: zero.
-void clear_film(Frame& frame, const WindowRect& rect);
-
 /// Write the samples of a batch that was just shaded into those of the frame.
 void keep_samples(Frame& frame, const Sampler& sampler, const Batch& batch, const shared::ViewGrid& grid, uint32_t spp,
                   bool fractional);

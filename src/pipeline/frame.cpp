@@ -14,6 +14,7 @@
 #include "pipeline/light_records.hpp"
 #include "pipeline/lights.hpp"
 #include "pipeline/memory_plan.hpp"
+#include "pipeline/steps.hpp"
 #include "shared/film.h"
 #include "stages/cells.hpp"
 #include "stages/sample.hpp"
@@ -21,6 +22,10 @@
 
 namespace gnomon {
 namespace {
+
+// Shares of a frame, and of a window, for what comes before the first sample. It may take any; these are seen to move.
+constexpr double kPosed = 0.02;
+constexpr double kListed = 0.1;
 
 FrameStats statistics(gpu::Device& device) {
     device.recorder().submit();
@@ -58,10 +63,8 @@ void list_window(gpu::Device& device, Programs& programs, const Geometry& geomet
     }
 }
 
-}  // namespace
-
-void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, std::shared_ptr<const SceneData> loaded,
-                  const std::vector<Pose>& poses, const RenderSettings& settings, const Progress& progress, Frame& frame) {
+void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std::shared_ptr<const SceneData> loaded,
+                const std::vector<Pose>& poses, const RenderSettings& settings, const Progress& progress, Frame& frame) {
     auto start = std::chrono::steady_clock::now();
     const Method& method = find_method(settings.method);
     check_parameters(method, settings.parameters);
@@ -90,6 +93,8 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
     make_channels(frame);
 
     // The scene, posed.
+    Steps steps(device, progress);
+    steps.begin(0.0, kPosed);
     if (!loaded) loaded = std::make_shared<SceneData>(upload_scene(device, scene));
     Geometry geometry = pose_geometry(device, programs, std::move(loaded), poses);
     const GeometryBounds boxes = geometry_bounds(device, programs, geometry, scene, poses);
@@ -139,22 +144,22 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;
     uint64_t camera_entries = 0;
-    bool stopped = false;
+    const double all_tiles = double(tiles_across(view)) * tiles_down(view);
+    const auto share = [&](const Window& window, double share_of_it) {
+        return kPosed + (1.0 - kPosed) * (window.tile_first + share_of_it * window.tile_count) / all_tiles;
+    };
     for (size_t w = 0; w < windows.size(); ++w) {
-        if (stopped) {
-            clear_film(frame, rect_of(view, windows[w]));
-            continue;
-        }
+        steps.begin(share(windows[w], 0.0), share(windows[w], kListed));
         list_window(device, programs, geometry, view, windows, w, budget, camera_bytes, shadows, bins);
         camera_entries += bins.entry_count;
         sampler.begin_window();
         if (w == 0) shadows.prepare();
         std::vector<Batch> batches = split_batches(windows[w], settings.spp, most_slots, shadows.most_strata());
-        for (size_t b = 0; b < batches.size() && !stopped; ++b) {
-            const double window_share = static_cast<double>(b) / static_cast<double>(batches.size());
-            const double done = windows[w].tile_first + window_share * windows[w].tile_count;
-            stopped = progress && !progress(done / (double(tiles_across(view)) * tiles_down(view)));
-            if (stopped) break;
+        for (size_t b = 0; b < batches.size(); ++b) {
+            const auto sampled = [&](size_t done) {
+                return share(windows[w], kListed + (1.0 - kListed) * double(done) / double(batches.size()));
+            };
+            steps.begin(sampled(b), sampled(b + 1));
             sampler.trace(batches[b]);
             while (!shadows.test_shadows(batches[b], can_halve(batches[b]))) {
                 halve(batches, b);
@@ -166,7 +171,6 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
         }
         read_film(device, sampler.resolve(), frame, rect_of(view, windows[w]));
     }
-    if (progress) progress(1.0);
     if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges();
 
     const uint64_t hits = sampler.hit_count();
@@ -187,6 +191,19 @@ void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, s
     frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;
     frame.stats.counts["ranges_tested"] = sampler.shadow_counts().tested;
     frame.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+}  // namespace
+
+void render_frame(gpu::Device& device, Programs& programs, const Scene& scene, std::shared_ptr<const SceneData> loaded,
+                  const std::vector<Pose>& poses, const RenderSettings& settings, const Progress& progress, Frame& frame) {
+    try {
+        make_frame(device, programs, scene, std::move(loaded), poses, settings, progress, frame);
+    } catch (const Steps::Stopped&) {
+        for (Channel& channel : frame.channels) std::ranges::fill(channel.values, 0.0f);
+        return;
+    }
+    if (progress) progress(1.0);
 }
 
 }  // namespace gnomon

@@ -25,6 +25,19 @@ uint32_t fitted_resolution(uint64_t triangles, uint32_t most) {
     return std::min(most, static_cast<uint32_t>(std::ceil(side / shared::kTileSize)) * shared::kTileSize);
 }
 
+/// While this lives, commands count as marked.
+class Marked {
+public:
+    explicit Marked(gpu::Recorder& recorder) : recorder_(recorder), before_(recorder.mark(true)) {}
+    ~Marked() { recorder_.mark(before_); }
+    Marked(const Marked&) = delete;
+    Marked& operator=(const Marked&) = delete;
+
+private:
+    gpu::Recorder& recorder_;
+    bool before_;
+};
+
 void release_side(LightSide& side) {
     side.map.reset();
     side.asked.reset();
@@ -124,8 +137,7 @@ void Lights::prepare() {
 
 // Step by step for all faces, so that the host waits for all of them at once. Where they do not fit, nothing is made.
 void Lights::make_together() {
-    gpu::Recorder& recorder = shared_.device.recorder();
-    const bool marked = recorder.mark(true);
+    const Marked marked(shared_.device.recorder());
     try {
         std::vector<Binning> binnings;
         for (size_t i = 0; i < faces_.size(); ++i) {
@@ -147,11 +159,9 @@ void Lights::make_together() {
             if (!faces_[i].side.asks) finish_map(i);
         }
     } catch (const Error& error) {
-        recorder.mark(marked);
         if (error.kind() != ErrorKind::out_of_memory) throw;
         release();
     }
-    recorder.mark(marked);
 }
 
 bool Lights::release() {
@@ -175,24 +185,20 @@ bool Lights::release_others(size_t face) {
 
 template <class Work>
 bool Lights::with_room(size_t face, Work work) {
-    gpu::Recorder& recorder = shared_.device.recorder();
-    const bool marked = recorder.mark(true);
+    const Marked marked(shared_.device.recorder());
     bool fits = false, more = true;
     while (!fits && more) {
         try {
             work();
             fits = true;
         } catch (const Error& error) {
-            recorder.mark(marked);
             if (error.kind() != ErrorKind::out_of_memory) throw;
             failure_ = std::current_exception();
-            recorder.mark(true);
             more = release_others(face);
             alone_ = true;
         }
     }
     alone_ = false;
-    recorder.mark(marked);
     return fits;
 }
 

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cmath>
+#include <new>
 
 #include "scene/gltf_check.hpp"
 #include "scene/gltf_file.hpp"
@@ -105,6 +106,8 @@ tinygltf::Model parse_model(const json& document, const std::vector<AccessorInfo
         const std::string text = parser_input(document, accessors).dump();
         done = parser.LoadASCIIFromString(&model, &messages, &unused, text.data(), static_cast<unsigned int>(text.size()), "",
                                           tinygltf::NO_REQUIRE);
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& e) {
         messages = e.what();
     }

@@ -33,15 +33,14 @@ Scene load(const std::filesystem::path& path) {
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& path) {
-    const auto fail = [&](const std::string& what, const std::string& hint) {
-        return Error(ErrorKind::input, what, "in " + path.string(), hint);
-    };
     try {
         return load(path);
     } catch (const std::bad_alloc&) {
-        throw fail("there is not enough memory to load the scene", "use a smaller scene");
+        throw Error(ErrorKind::out_of_memory, "there is not enough memory to load the scene", "in " + path.string(),
+                    "use a smaller scene");
     } catch (const std::filesystem::filesystem_error& e) {
-        throw fail("the scene's folder cannot be read (" + e.code().message() + ")", "check the path and its permissions");
+        throw Error(ErrorKind::input, "the scene's folder cannot be read (" + e.code().message() + ")", "in " + path.string(),
+                    "check the path and its permissions");
     }
 }
 

@@ -30,7 +30,9 @@ void* bounded_realloc(void* block, size_t bytes) { return bytes > largest_alloca
 #include <stb_image.h>
 #pragma GCC diagnostic pop
 
+#include <algorithm>
 #include <memory>
+#include <numeric>
 
 namespace gnomon::gltf {
 
@@ -45,15 +47,49 @@ uint64_t most_texels_of_byte(std::span<const uint8_t> file) {
     return file[0] == kJpeg ? 8 * 64 : 8 * 1032;
 }
 
+// stb_image before 2.28 writes past the end of its tables where a Huffman table of a JPEG has more codes than there are values
+// (tests/fuzz/regressions/image). Walks the segments as it does: what lies between them, as coded texels, is passed over to the
+// next marker.
+bool has_too_many_codes(std::span<const uint8_t> file) {
+    constexpr size_t kLengths = 16, kMostCodes = 256;
+    constexpr uint8_t kTables = 0xc4, kFirstBare = 0xd0, kLastBare = 0xd9;  // Restarts, begin and end have no content.
+    for (size_t at = 0;;) {
+        while (at < file.size() && file[at] != 0xff) ++at;
+        while (at < file.size() && file[at] == 0xff) ++at;
+        if (at + 3 > file.size()) return false;
+        const uint8_t marker = file[at++];
+        if (marker <= 1 || (marker >= kFirstBare && marker <= kLastBare)) continue;
+        const size_t end = std::min(at + (size_t{file[at]} << 8 | file[at + 1]), file.size());
+        for (size_t table = at + 2; marker == kTables && table < end;) {  // The last may reach beyond the segment.
+            const auto rest = file.subspan(table + 1);
+            const auto lengths = rest.first(std::min(kLengths, rest.size()));
+            const size_t codes = std::accumulate(lengths.begin(), lengths.end(), size_t{0});
+            if (codes > kMostCodes) return true;
+            table += 1 + kLengths + codes;
+        }
+        at = std::max(end, at);
+    }
+}
+
+// Of some damage stb_image has nothing to say.
+std::string failure_reason() {
+    const char* reason = stbi_failure_reason();
+    return reason != nullptr && *reason != '\0' ? reason : "its data are damaged";
+}
+
 }  // namespace
 
 std::optional<ImageSize> image_size(std::span<const uint8_t> file, std::string& reason) {
     largest_allocation = kDecoderState;
+    if (!file.empty() && file[0] == 0xff && has_too_many_codes(file)) {
+        reason = "a Huffman table has more than 256 codes";
+        return std::nullopt;
+    }
     int width = 0;
     int height = 0;
     int channels = 0;
     if (stbi_info_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels) == 0) {
-        reason = stbi_failure_reason();
+        reason = failure_reason();
         return std::nullopt;
     }
     if (static_cast<uint64_t>(width) * static_cast<uint64_t>(height) > file.size() * most_texels_of_byte(file)) {
@@ -73,7 +109,7 @@ std::vector<uint8_t> decode_rgba(std::span<const uint8_t> file, ImageSize size, 
     const std::unique_ptr<stbi_uc, void (*)(void*)> texels(
         stbi_load_from_memory(file.data(), static_cast<int>(file.size()), &width, &height, &channels, 4), stbi_image_free);
     if (!texels) {
-        reason = stbi_failure_reason();
+        reason = failure_reason();
         return {};
     }
     return {texels.get(), texels.get() + size_t{4} * static_cast<size_t>(width) * static_cast<size_t>(height)};

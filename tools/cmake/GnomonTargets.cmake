@@ -2,6 +2,7 @@
 # What every target of ours is compiled with.
 option(GNOMON_ASSERTS "Keep asserts in optimised builds" OFF)
 option(GNOMON_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+option(GNOMON_FUZZ "libFuzzer's instrumentation, and its targets in tests/fuzz; for Clang" OFF)
 
 function(gnomon_configure target)
   target_compile_features(${target} PUBLIC cxx_std_20)
@@ -22,6 +23,10 @@ function(gnomon_configure target)
       target_compile_options(${target} PRIVATE -Wno-maybe-uninitialized)  # False ones in <regex> when sanitizers are on.
     endif()
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+  if(GNOMON_FUZZ)
+    # glslang has no type information, which the check of vptr needs.
+    target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link -fno-sanitize=vptr)
   endif()
 endfunction()
 

@@ -12,7 +12,7 @@
 namespace gnomon::cli {
 
 /// Exit codes that are not those of an ErrorKind.
-enum ExitCode : int { kDone = 0, kLostEntries = 7, kOverThreshold = 8, kWrongResult = 9, kInterrupted = 130 };
+enum ExitCode : int { kDone = 0, kLostEntries = 7, kOverThreshold = 8, kWrongResult = 9 };
 
 /// What the command line asks for: filled while it is parsed, run after.
 struct Invocation {

@@ -10,7 +10,6 @@
 
 #include "additions.hpp"
 #include "command.hpp"
-#include "interrupt.hpp"
 #include "io/atomic_file.hpp"
 #include "io/exr.hpp"
 #include "io/png.hpp"
@@ -69,7 +68,6 @@ void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions&
 }
 
 int render(const RenderOptions& options, bool quiet) {
-    catch_interrupts();
     const std::vector<FrameJob> jobs = frame_jobs(options);
     check_outputs(jobs);
 
@@ -97,13 +95,9 @@ int render(const RenderOptions& options, bool quiet) {
         const std::vector<Pose> poses = pose_scene(drawn, animation, job.shutter.open, job.shutter.close, options.time_steps);
         renderer.render(loaded, poses, settings, frame, [&](double share) {
             bar.update((static_cast<double>(i) + share) / frame_count);
-            return !interrupted();
+            return true;
         });
         bar.erase();
-        if (interrupted()) {
-            spdlog::error("interrupted, before {} was written; run it again", job.exr.string());
-            return kInterrupted;
-        }
 
         check_finite(frame, options.scene);
         write_outputs(frame, job, options,

@@ -10,7 +10,6 @@
 #include <memory>
 
 #include "command.hpp"
-#include "interrupt.hpp"
 #include "io/atomic_file.hpp"
 #include "options.hpp"
 #include "progress.hpp"
@@ -80,7 +79,6 @@ int reproduce_figures(const ReproduceOptions& options, bool quiet) {
         throw Error(ErrorKind::input, "cannot make the folder: " + error.message(), options.folder.string(),
                     "choose another -o");
     io::check_writable(options.folder / "index.html");
-    catch_interrupts();
     Renderer renderer(options.device);
     log_device(renderer.device(), !options.device.empty());
 
@@ -90,20 +88,14 @@ int reproduce_figures(const ReproduceOptions& options, bool quiet) {
     const SamplesDone samples_done = [&](double samples) {
         done += samples;
         bar.update(done / total);
-        return !interrupted();
     };
     std::map<const Experiment*, ExperimentResult> measured;
     std::vector<IndexEntry> entries;
     for (const Figure* figure : chosen) {
         const Experiment* experiment = figure->experiment.get();
         if (!measured.contains(experiment)) {
-            std::optional<ExperimentResult> result = measure(renderer, *experiment, options.measure, samples_done);
+            measured.emplace(experiment, measure(renderer, *experiment, options.measure, samples_done));
             bar.erase();
-            if (!result) {
-                spdlog::error("interrupted, before figure {} was written; run it again", figure->name);
-                return kInterrupted;
-            }
-            measured.emplace(experiment, std::move(*result));
         }
         FigureReport report{*figure, measured.at(experiment), {}, options.measure, renderer.device().name};
         report.claims = check_claims(*figure, report.result);

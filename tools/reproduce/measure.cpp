@@ -136,8 +136,8 @@ double sample_count(const Experiment& experiment, const MeasureOptions& options)
     return sum;
 }
 
-std::optional<ExperimentResult> measure(Renderer& renderer, const Experiment& experiment, const MeasureOptions& options,
-                                        const SamplesDone& done) {
+ExperimentResult measure(Renderer& renderer, const Experiment& experiment, const MeasureOptions& options,
+                         const SamplesDone& done) {
     ExperimentResult result;
     for (const Setting& setting : experiment.settings) {
         const makers::PosedScene posed = makers::make_posed(setting.make, setting.segments);
@@ -150,13 +150,10 @@ std::optional<ExperimentResult> measure(Renderer& renderer, const Experiment& ex
             converged.spp = options.reference_spp;
             converged.seed = options.repeat;  // None of the runs'.
             at.converged = trace(converged);
-            if (!done(double(converged.width) * converged.height * converged.spp)) return std::nullopt;
+            done(double(converged.width) * converged.height * converged.spp);
         }
         std::vector<RunMeasurement> runs(experiment.runs.size());
-        for (const Run& run : experiment.runs) {
-            warm_up(renderer, posed, settings_of(at.settings, run));
-            if (!done(0.0)) return std::nullopt;
-        }
+        for (const Run& run : experiment.runs) warm_up(renderer, posed, settings_of(at.settings, run));
         for (uint32_t seed = 0; seed < options.repeat; ++seed) {
             RenderSettings settings = at.settings;
             settings.seed = seed;
@@ -166,18 +163,16 @@ std::optional<ExperimentResult> measure(Renderer& renderer, const Experiment& ex
                 ReferenceSettings reference = reference_settings(settings);
                 reference.keep_samples = true;
                 same_samples = trace(reference);
-                if (!done(sample_count(settings))) return std::nullopt;
+                done(sample_count(settings));
             }
             for (size_t i = 0; i < runs.size(); ++i) {
                 double reported = 0.0;
-                bool stopped = false;
                 Frame frame =
                     renderer.render(posed.scene, posed.poses, settings_of(settings, experiment.runs[i]), [&](double share) {
-                        stopped = !done((share - reported) * sample_count(settings));
+                        done((share - reported) * sample_count(settings));
                         reported = share;
-                        return !stopped;
+                        return true;
                     });
-                if (stopped) return std::nullopt;
                 runs[i].add(std::move(frame), at, experiment.with_reference ? &same_samples : nullptr);
             }
             if (seed == 0) {

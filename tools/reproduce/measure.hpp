@@ -48,15 +48,15 @@ struct ExperimentResult {
     std::vector<SettingResult> settings;  ///< As Experiment::settings.
 };
 
-/// Told, now and then, how many samples were rendered since the last time. Returning false stops.
-using SamplesDone = std::function<bool(double samples)>;
+/// Told, now and then, how many samples were rendered since the last time.
+using SamplesDone = std::function<void(double samples)>;
 
 /// All samples of the experiment, those of the reference included.
 double sample_count(const Experiment& experiment, const MeasureOptions& options);
 
-/// Runs take turns, seed by seed, after one small frame of each that is not measured. Nothing if it was stopped.
+/// Runs take turns, seed by seed, after one small frame of each that is not measured.
 /// Errors: those of the makers, Renderer::render and trace_reference.
-std::optional<ExperimentResult> measure(Renderer& renderer, const Experiment& experiment, const MeasureOptions& options,
-                                        const SamplesDone& done);
+ExperimentResult measure(Renderer& renderer, const Experiment& experiment, const MeasureOptions& options,
+                         const SamplesDone& done);
 
 }  // namespace gnomon::reproduce

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <new>
 
 #include "test_folder.hpp"
 #include "throws.hpp"
@@ -132,7 +133,7 @@ TEST_F(AtomicFileTest, SignalsThatEndTheProcessLeaveNothing) {
         if (child == 0) {
             const rlimit no_core{0, 0};
             setrlimit(RLIMIT_CORE, &no_core);
-            io::remove_unfinished_files_on_signals();
+            io::end_cleanly("test", "");
             AtomicFile first(folder / "a.txt"), second(folder / "b.txt");
             first.write(bytes_of("part"));
             std::raise(signal);
@@ -140,16 +141,78 @@ TEST_F(AtomicFileTest, SignalsThatEndTheProcessLeaveNothing) {
         }
         int status = 0;
         waitpid(child, &status, 0);
-        EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal;
+        if (signal == SIGINT || signal == SIGTERM) {
+            EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 130) << signal;
+        } else {
+            EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal) << signal;
+        }
         EXPECT_EQ(names(), Names{}) << signal;
     }
+}
+
+// Each in a process of its own: what a process has made it removes itself.
+TEST_F(AtomicFileTest, WhatAKilledProcessLeftIsRemovedByTheNext) {
+    const auto run_child = [](const auto& work) {
+        const pid_t child = fork();
+        if (child == 0) {
+            work();
+            _exit(0);
+        }
+        return child;
+    };
+    const auto end_of = [](pid_t child) {
+        int status = 0;
+        waitpid(child, &status, 0);
+        return status;
+    };
+    const auto write_and_wait = [&] {
+        AtomicFile file(folder / "a.txt");
+        file.write(bytes_of("part"));
+        pause();
+    };
+    const auto wait_for_files = [&](size_t count) {
+        while (names().size() < count) usleep(1000);
+    };
+    const pid_t killed = run_child(write_and_wait);
+    wait_for_files(1);
+    kill(killed, SIGKILL);
+    end_of(killed);
+    const Names left = names();
+    ASSERT_EQ(left.size(), 1u);
+    ASSERT_TRUE(left.begin()->starts_with(".gnomon-"));
+    put_content(folder / ".gnomon-notes.txt", "somebody's");
+
+    // It is removed; the file of a process that lives is not.
+    const pid_t alive = run_child(write_and_wait);
+    wait_for_files(2);
+    while (names().contains(*left.begin()) || names().size() < 2) usleep(1000);
+    EXPECT_EQ(end_of(run_child([&] { io::write_file(folder / "b.txt", "whole"); })), 0);
+    EXPECT_EQ(names().size(), 3u);
+    kill(alive, SIGKILL);
+    end_of(alive);
+    EXPECT_EQ(end_of(run_child([&] { io::check_writable(folder / "b.txt"); })), 0);
+    EXPECT_EQ(names(), (Names{".gnomon-notes.txt", "b.txt"}));
+}
+
+TEST_F(AtomicFileTest, WithoutMemoryADestructorEndsTheProcessCleanly) {
+    const pid_t child = fork();
+    if (child == 0) {
+        io::end_cleanly("test", "use less");
+        AtomicFile file(folder / "a.txt");
+        const auto allocate = [] { throw std::bad_alloc(); };
+        [&]() noexcept { allocate(); }();
+    }
+    int status = 0;
+    waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 5) << status;
+    EXPECT_EQ(names(), Names{});
 }
 
 TEST_F(AtomicFileTest, SignalsThatAreIgnoredStaySo) {
     const pid_t child = fork();
     if (child == 0) {
         std::signal(SIGHUP, SIG_IGN);  // As by nohup.
-        io::remove_unfinished_files_on_signals();
+        io::end_cleanly("test", "");
         AtomicFile file(folder / "a.txt");
         std::raise(SIGHUP);
         file.commit();

@@ -171,6 +171,19 @@ TEST(Material, HeadersOfImagesThatPromiseTooMuchAreErrors) {
     }
 }
 
+// Also where the table is in a segment that is said to end before it.
+TEST(Material, HuffmanTablesOfMoreThan256CodesAreErrors) {
+    for (const uint8_t segment_bytes : {19, 3}) {
+        std::vector<uint8_t> jpeg = {0xff, 0xd8, 0xff, 0xe0, 0, 4, 0xff, 0xc4, 0xff, 0xc4, 0, segment_bytes, 0};
+        jpeg.resize(jpeg.size() + 16, 17);
+        jpeg.resize(800);
+        Gltf gltf;
+        with_texture(gltf).doc["images"][0] = {{"uri", "wood.png"}};
+        gltf.folder.write("wood.png", std::string(jpeg.begin(), jpeg.end()));
+        EXPECT_THAT(gltf.error(), HasSubstr("a Huffman table has more than 256 codes"));
+    }
+}
+
 TEST(Material, ColoursOutsideZeroToOneAreClampedWithAWarning) {
     Gltf gltf;
     with_texture(gltf).doc["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"] = {-1, 3e38, 0.5, 1};
