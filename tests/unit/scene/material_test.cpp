@@ -173,7 +173,7 @@ TEST(Material, HeadersOfImagesThatPromiseTooMuchAreErrors) {
 
 // Also where the table is in a segment that is said to end before it.
 TEST(Material, HuffmanTablesOfMoreThan256CodesAreErrors) {
-    for (const uint8_t segment_bytes : {19, 3}) {
+    for (const uint8_t segment_bytes : {uint8_t{19}, uint8_t{3}}) {
         std::vector<uint8_t> jpeg = {0xff, 0xd8, 0xff, 0xe0, 0, 4, 0xff, 0xc4, 0xff, 0xc4, 0, segment_bytes, 0};
         jpeg.resize(jpeg.size() + 16, 17);
         jpeg.resize(800);
