@@ -29,6 +29,8 @@ int run(int argc, char** argv) {
     gnomon::cli::add_doctor(app, invocation);
     gnomon::cli::add_methods(app, invocation);
     gnomon::cli::add_compare(app, invocation);
+    gnomon::cli::add_probe(app, invocation);
+    gnomon::cli::add_sbuffer(app, invocation);
     gnomon::cli::add_ranges(app, invocation);
 #ifdef GNOMON_HAS_REFERENCE
     gnomon::cli::add_reproduce(app, invocation);
