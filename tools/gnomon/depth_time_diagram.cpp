@@ -156,7 +156,10 @@ private:
     void sample(const ProbedSample& s) {
         add(R"(<circle cx="{:.2f}" cy="{:.2f}" r="4" class="{}"><title>pixel {},{}, sample {}: {}, t {:.6g}, {:.6g} m, of triangle {}{}</title></circle>)",
             x(s.time), y(s.depth), s.lit ? "lit" : "dark", s.pixel.x, s.pixel.y, s.number, s.lit ? "lit" : "dark", s.time,
-            s.depth, s.triangle, s.shadowed_by ? fmt::format(", shadowed by {}", *s.shadowed_by) : "");
+            s.depth, s.triangle,
+            s.shadowed_by             ? fmt::format(", shadowed by {}", *s.shadowed_by)
+            : !s.lit && s.turned_away ? ", turned away from the light"
+                                      : "");
     }
 
     void legend() {

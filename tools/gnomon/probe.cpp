@@ -46,7 +46,8 @@ void check_place(const Place& place, uint32_t width, uint32_t height, const std:
 Json place_json(const Place& place) { return {place.x, place.y}; }
 
 /// The document "gnomon.probe": the texels with their ranges and samples. Times are shares of the shutter, depths metres along
-/// the axis of the light's view; shadowed_by is null of a sample that is lit, and where what hides it is a matter of rounding.
+/// the axis of the light's view. turned_away: the light sees the other side of the triangle; of a closed body such a sample is
+/// dark without a range. shadowed_by is null of a sample that is lit, of such a one, and where it is a matter of rounding.
 Json probe_json(const std::vector<ProbedTexel>& texels, const ProbeOptions& options, bool exit_depths, const Json& settings) {
     Json json = io::document("probe");
     json["settings"] = settings;
@@ -69,6 +70,7 @@ Json probe_json(const std::vector<ProbedTexel>& texels, const ProbeOptions& opti
                                {"depth", s.depth},
                                {"triangle", s.triangle},
                                {"lit", s.lit},
+                               {"turned_away", s.turned_away},
                                {"shadowed_by", s.shadowed_by ? Json(*s.shadowed_by) : Json(nullptr)},
                                {"shadow_depth", s.shadowed_by ? Json(s.shadow_depth) : Json(nullptr)}});
         json["texels"].push_back({{"texel", place_json(texel.texel)}, {"ranges", ranges}, {"samples", samples}});

@@ -13,14 +13,17 @@ namespace {
 
 using Corners = std::array<glm::dvec4, 3>;
 
-/// Weights of the corners, in raster space, at the point of the triangle that is seen at (x, y); without area they are NaN.
-glm::dvec3 barycentrics(const Corners& c, double x, double y) {
+/// The edge functions of the corners, in raster space, at (x, y): each of the edge opposite to a corner.
+glm::dvec3 edges(const Corners& c, double x, double y) {
     const auto edge = [&](const glm::dvec4& a, const glm::dvec4& b) {
         return (a.x - x * a.w) * (b.y - y * b.w) - (a.y - y * a.w) * (b.x - x * b.w);
     };
-    const glm::dvec3 e(edge(c[1], c[2]), edge(c[2], c[0]), edge(c[0], c[1]));
-    return e / (e.x + e.y + e.z);
+    return {edge(c[1], c[2]), edge(c[2], c[0]), edge(c[0], c[1])};
 }
+
+/// Their sum's sign says which side of the triangle is seen; over it they are the weights of the corners at the point that is
+/// seen there, which without area are NaN.
+double sum(const glm::dvec3& e) { return e.x + e.y + e.z; }
 
 glm::dvec4 weighted(const Corners& c, const glm::dvec3& weights) {
     return weights.x * c[0] + weights.y * c[1] + weights.z * c[2];
@@ -48,11 +51,11 @@ public:
         if (record.triangle == SampleRecord::kMiss) return std::nullopt;
         const glm::vec3 at = shared::sample_point(shared::pixel_hash(pixel.x, pixel.y, s.seed), pixel.x, pixel.y, number,
                                                   shared::stratum_length(s.spp));
-        const glm::dvec3 weights =
-            barycentrics(corners(camera_, record.triangle, at.z), at.x - 0.5 * s.width, at.y - 0.5 * s.height);
+        const glm::dvec3 at_pixel = edges(corners(camera_, record.triangle, at.z), at.x - 0.5 * s.width, at.y - 0.5 * s.height);
         for (size_t f = 0; f < faces_.size(); ++f) {
             const View& face = faces_[f];
-            const glm::dvec4 hit = weighted(corners(face, record.triangle, at.z), weights);
+            const Corners seen = corners(face, record.triangle, at.z);
+            const glm::dvec4 hit = weighted(seen, at_pixel / sum(at_pixel));
             const double x = hit.x / hit.w + 0.5 * face.width, y = hit.y / hit.w + 0.5 * face.height;
             if (!(hit.w > 0.0 && x >= 0.0 && x < face.width && y >= 0.0 && y < face.height)) continue;
             const Place texel{static_cast<uint32_t>(x), static_cast<uint32_t>(y) + static_cast<uint32_t>(f) * face.height};
@@ -63,6 +66,7 @@ public:
                                 at.z,
                                 face.orthographic ? hit.z : hit.w,
                                 probed_.frame.lit(index, probed_.light)};
+            sample.turned_away = (sum(edges(seen, hit.x / hit.w, hit.y / hit.w)) < 0.0) != (sum(at_pixel) < 0.0);
             if (!sample.lit) find_shadow(face, hit, texel, sample);
             return std::pair(texel, sample);
         }
@@ -109,7 +113,7 @@ private:
             return glm::mix(double(r.depth), double(r.exit_depth),
                             (time - r.enter) / std::max(1e-30, double(r.leave) - r.enter));
         const Corners c = corners(face, r.triangle, time);
-        const glm::dvec3 weights = barycentrics(c, hit.x / hit.w, hit.y / hit.w);
+        const glm::dvec3 e = edges(c, hit.x / hit.w, hit.y / hit.w), weights = e / sum(e);
         if (!(weights.x >= 0.0 && weights.y >= 0.0 && weights.z >= 0.0)) return std::nullopt;
         const glm::dvec4 at = weighted(c, weights);
         return face.orthographic ? at.z : at.w;

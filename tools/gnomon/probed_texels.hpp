@@ -24,8 +24,10 @@ struct ProbedSample {
     double time = 0.0;      ///< In the shutter, 0 to 1.
     double depth = 0.0;     ///< Metres along the axis of the light's view.
     bool lit = false;
-    /// Of a dark one the nearest triangle of the texel's ranges that hides it from the light, and its depth; none where that is
-    /// a matter of rounding.
+    /// The camera sees another side of its triangle than the light: of a closed body it is then dark without a range.
+    bool turned_away = false;
+    /// Of a dark one the nearest triangle of the texel's ranges that hides it from the light, and its depth; none where it is
+    /// turned away, or that is a matter of rounding.
     std::optional<uint32_t> shadowed_by = {};
     double shadow_depth = 0.0;
 };
