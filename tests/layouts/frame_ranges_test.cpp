@@ -7,7 +7,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <gnomon/error.hpp>
+#include <limits>
+#include <map>
 
 #include "end_to_end/moving_triangles.hpp"
 #include "io/sbuffer_check.hpp"
@@ -97,6 +98,15 @@ double metres(const View& view, const oracle::Surface& surface) {
     return view.orthographic ? surface.depth : -1.0 / surface.depth;
 }
 
+/// Of the corners in the segment the nearest; 0 where one is behind the light.
+double nearest_corner(const View& view, const oracle::MovingTriangle& triangle) {
+    double nearest = std::numeric_limits<double>::max();
+    for (const auto& corners : {triangle.start, triangle.end})
+        for (const glm::dvec4& corner : corners)
+            nearest = std::min(nearest, view.orthographic ? corner.z : std::max(0.0, corner.w));
+    return nearest;
+}
+
 const TexelRange* range_at(const LightRanges& light, uint32_t texel, uint32_t triangle, double time) {
     const auto first = std::lower_bound(light.ranges.begin(), light.ranges.end(), texel,
                                         [](const TexelRange& r, uint32_t at) { return r.texel < at; });
@@ -118,13 +128,14 @@ TEST(FrameRanges, HoldWhatTheOracleSeesInATexel) {
         EXPECT_EQ(light.faces, kind == LightKind::point ? 6u : 1u);
         EXPECT_EQ(light.width, kSide);
         EXPECT_EQ(light.height, kSide * light.faces);
-        uint64_t instants = 0, missed = 0, too_deep = 0;
+        uint64_t instants = 0, missed = 0, too_deep = 0, too_near = 0;
         for_each_texel(scene, [&](const View& view, const Stay& stay) {
             for (const double s : {0.0, 0.31, 0.77, 1.0}) {
                 if (!oracle::orientation_in(stay.motion, {stay.centre - 0.5, stay.centre + 0.5}, s)) continue;
                 ++instants;
                 const TexelRange* range = range_at(light, stay.texel, stay.triangle, (stay.segment + s) / kSegments);
                 missed += range == nullptr ? 1 : 0;
+                too_near += range != nullptr && range->depth < nearest_corner(view, stay.motion) - 1e-5 ? 1 : 0;
                 const auto surface = oracle::surface_at(stay.motion, stay.centre.x, stay.centre.y, s);
                 too_deep += range != nullptr && surface && range->depth > metres(view, *surface) + 1e-6 ? 1 : 0;
             }
@@ -132,6 +143,7 @@ TEST(FrameRanges, HoldWhatTheOracleSeesInATexel) {
         EXPECT_GT(instants, 500u);
         EXPECT_EQ(missed, 0u) << "of " << instants;
         EXPECT_EQ(too_deep, 0u) << "of " << instants;
+        EXPECT_EQ(too_near, 0u) << "of " << instants;
         std::vector<uint32_t> counts(size_t(light.width) * light.height);
         for (const TexelRange& range : light.ranges) {
             ++counts.at(range.texel);

@@ -13,7 +13,7 @@ namespace {
 constexpr size_t kMostTexels = 8;
 constexpr double kWidth = 980, kHeight = 470;                         // Of a texel's diagram.
 constexpr double kLeft = 84, kRight = 720, kTop = 64, kBottom = 404;  // Its plot.
-constexpr size_t kMostBands = 60;                                     // Above that what lies behind ranges is not tinted.
+constexpr size_t kMostBands = 16;                                     // Above that what lies behind ranges is not tinted.
 // Okabe and Ito 2008, "Color universal design", without yellow and black, which are the samples'; then what is left over.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"};
 constexpr const char* kOther = "#8a8f98";
