@@ -97,9 +97,9 @@ struct FrameStats {
     /// triangles, prisms, ranges, samples, hits, shadow_tests, ...; camera_tests, ranges_visited and ranges_tested where
     /// RenderSettings::count_ranges asks for them.
     std::map<std::string, uint64_t> counts;
-    bool timed = true;                             ///< Stages have seconds; not on devices that cannot tell the time.
-    uint64_t submissions = 0;                      ///< Of work to the device; each is waited for.
-    double longest_dispatch = 0;                   ///< Seconds of what ran longest as one.
+    bool timed = true;            ///< Stages have seconds; not on devices that cannot tell the time.
+    uint64_t submissions = 0;     ///< Of work to the device; each is waited for.
+    double longest_dispatch = 0;  ///< Seconds of what ran longest as one.
     double wall_seconds = 0.0;
     std::string device;
     std::string driver;  ///< Its name and version; empty of what has none.

@@ -95,7 +95,7 @@ int probe(const ProbeOptions& options, bool quiet) {
     }
     const RenderOptions& o = options.render;
     if (!o.json.empty() && o.json != "-") check_ending(o.json, ".json", "--json");
-    const FrameJob job{{}, o.shutter, {}, {}, o.json, {}, {}};
+    const FrameJob job{{}, o.shutter, {}, {}, o.json};
     PreparedScene prepared = prepare_scene(o, {job});
     RenderSettings& settings = prepared.settings;
     settings.keep_samples = settings.keep_ranges = true;

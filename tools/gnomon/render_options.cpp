@@ -177,7 +177,7 @@ std::vector<FrameJob> frame_jobs(const RenderOptions& options) {
         throw Error(ErrorKind::usage, "the picture and the S-buffer have the same file", "--dump-sbuffer", "name another");
 
     if (!options.frames) {
-        FrameJob still{{}, options.shutter, options.exr, {}, options.json, {}, {}};
+        FrameJob still{{}, options.shutter, options.exr, {}, options.json};
         if (!options.png.empty()) still.png = options.png;
         if (!options.sbuffer.empty()) still.sbuffer = options.sbuffer;
         if (!options.heatmap.empty()) still.heatmap = options.heatmap;
@@ -186,7 +186,7 @@ std::vector<FrameJob> frame_jobs(const RenderOptions& options) {
     std::vector<FrameJob> frames;
     for (uint64_t number = options.frames->first; number <= options.frames->last; ++number) {
         const auto n = static_cast<uint32_t>(number);
-        FrameJob frame{n, {}, numbered_path(options.exr, n, "-o"), {}, options.json, {}, {}};
+        FrameJob frame{n, {}, numbered_path(options.exr, n, "-o"), {}, options.json};
         frame.shutter = {n / options.fps, (n + options.shutter_angle / 360.0) / options.fps};
         if (!options.png.empty()) frame.png = numbered_path(options.png, n, "--png");
         if (!options.heatmap.empty()) frame.heatmap = numbered_path(options.heatmap, n, "--heatmap");

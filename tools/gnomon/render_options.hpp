@@ -47,8 +47,8 @@ struct FrameJob {
     std::filesystem::path exr;
     std::optional<std::filesystem::path> png;
     std::string json;  ///< As RenderOptions::json.
-    std::optional<std::filesystem::path> sbuffer;
-    std::optional<std::filesystem::path> heatmap;
+    std::optional<std::filesystem::path> sbuffer = {};
+    std::optional<std::filesystem::path> heatmap = {};
 };
 
 /// Declare the options that say what one frame is; `options` must live until the command line is parsed.
