@@ -159,12 +159,21 @@ struct RasterParams {
     uint entry_first;     // As in PageParams.
 };
 
-struct TexelRangesParams {
-    ViewGrid grid;
-    uint item_first;  // Items whose ranges are in memory.
-    uint item_count;
+struct ReadListsParams {
+    uint list_first;  // Lists [list_first, list_first + list_count).
+    uint list_count;
     uint range_first;  // The number of the first range in memory.
     uint part;         // How many times kListChunk ranges of each list were walked before.
+};
+
+// A range of an S-buffer as sbuffer/read gives it. Times are of the shutter. Depths are as the raster stage writes them: with
+// one at the exit, metres along the view's axis; else the view's depth (math/cover.h).
+struct ListRange {
+    float enter;
+    float leave;
+    float depth;       // At the entry; of a conservative range the nearest.
+    float exit_depth;  // `depth`, where ranges have none at their exit.
+    uint entry;        // The triangle, and kReversed.
 };
 
 struct TraceParams {

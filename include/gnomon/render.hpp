@@ -40,7 +40,9 @@ struct RenderSettings {
     bool static_once = true;
     uint64_t memory_budget = 0;      ///< Most bytes of device memory; 0: half the device's heap.
     bool keep_samples = false;       ///< Fill Frame::samples.
-    bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges.
+    bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges. Does what `pages` "all" and no `static_once` do, and leaves
+                                     ///< suns' views as they are; so does the next.
+    bool keep_ranges = false;        ///< Fill Frame::light_ranges.
     bool count_ranges = false;       ///< Count the ranges that the shadow tests look at and test; costs some percent.
 };
 
@@ -52,6 +54,28 @@ struct SampleRecord {
     /// Bit i: light i reaches the hit; half of it or more, of a method that gives shares. Of the first 32 lights: Frame::lit
     /// knows all.
     uint32_t lit = 0;
+};
+
+/// A range of an S-buffer: while the shutter is open from `enter` to `leave`, 0 to 1 (by rounding up to 1e-5 less or more), a
+/// triangle may be seen in a texel of a light's view.
+struct TexelRange {
+    uint32_t texel = 0;  ///< Row * width + column.
+    float enter = 0.0f;
+    uint32_t triangle = 0;  ///< Into Scene::triangles.
+    float leave = 0.0f;
+    float depth = 0.0f;       ///< At the entry, metres along the view's axis; of conservative ranges the nearest.
+    float exit_depth = 0.0f;  ///< `depth`, where the method keeps none.
+
+    bool operator==(const TexelRange&) const = default;
+};
+
+/// The S-buffer of a light: its ranges, by texel, then by enter, triangle, leave and depths. In 24 bytes each.
+struct LightRanges {
+    uint32_t width = 0;   ///< Texels.
+    uint32_t height = 0;  ///< Of all faces, one below the other.
+    uint32_t faces = 0;
+    bool exit_depths = false;  ///< The method keeps them.
+    std::vector<TexelRange> ranges;
 };
 
 struct Channel {
@@ -70,10 +94,12 @@ struct FrameStats {
     std::vector<Stage> stages;
     std::map<std::string, uint64_t> buffer_bytes;  ///< Largest size of each buffer.
     uint64_t peak_bytes = 0;                       ///< Most device memory at one time.
-    std::map<std::string, uint64_t> counts;        ///< triangles, prisms, ranges, samples, hits, shadow_tests, ...
-    bool timed = true;                             ///< Stages have seconds; not on devices that cannot tell the time.
-    uint64_t submissions = 0;                      ///< Of work to the device; each is waited for.
-    double longest_dispatch = 0;                   ///< Seconds of what ran longest as one.
+    /// triangles, prisms, ranges, samples, hits, shadow_tests, ...; camera_tests, ranges_visited and ranges_tested where
+    /// RenderSettings::count_ranges asks for them.
+    std::map<std::string, uint64_t> counts;
+    bool timed = true;            ///< Stages have seconds; not on devices that cannot tell the time.
+    uint64_t submissions = 0;     ///< Of work to the device; each is waited for.
+    double longest_dispatch = 0;  ///< Seconds of what ran longest as one.
     double wall_seconds = 0.0;
     std::string device;
     std::string driver;  ///< Its name and version; empty of what has none.
@@ -90,6 +116,7 @@ struct Frame {
     /// By light: how many ranges each texel of its view has in the whole shutter (shadow_res squared, rows from the top; of a
     /// light with several faces one face below the other); empty for methods without ranges.
     std::vector<std::vector<uint32_t>> texel_ranges;
+    std::vector<LightRanges> light_ranges;         ///< By light; without texels for methods without ranges.
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
 

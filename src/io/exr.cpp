@@ -3,22 +3,16 @@
 #include "io/exr.hpp"
 
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfCompression.h>
 #include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputPart.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <cassert>
-#include <gnomon/error.hpp>
-#include <new>
 
-#include "io/atomic_file.hpp"
+#include "io/openexr.hpp"
 
 namespace gnomon::io {
 
@@ -28,46 +22,9 @@ namespace {
 constexpr int kMostSide_px = 16384;
 constexpr uint64_t kMostBytes = uint64_t{4} << 30;
 
-// Bytes of pixels that a byte of the file can hold at most, so that a header which promises more is damaged. Deflate makes at
-// most 1032 of one; before it DWA makes one 16-bit value of 8x8 pixels. PIZ has runs of up to 256 values in a code.
-uint64_t most_compression(Imf::Compression compression) {
-    constexpr uint64_t kDeflate = 1032;
-    switch (compression) {
-        case Imf::NO_COMPRESSION:
-            return 1;
-        case Imf::RLE_COMPRESSION:
-            return 128;
-        case Imf::ZIPS_COMPRESSION:
-        case Imf::ZIP_COMPRESSION:
-            return kDeflate;
-        case Imf::PXR24_COMPRESSION:  // Of floats 24 bits are kept.
-            return kDeflate * 4 / 3;
-        default:
-            return kDeflate * 64;
-    }
-}
-
-class OutputStream : public Imf::OStream {
-public:
-    OutputStream(AtomicFile& file, const std::string& name) : Imf::OStream(name.c_str()), file_(file) {}
-
-    void write(const char data[], int count) override {
-        file_.write(std::as_bytes(std::span(data, static_cast<size_t>(count))));
-    }
-    uint64_t tellp() override { return file_.position(); }
-    void seekp(uint64_t position) override { file_.seek(position); }
-
-private:
-    AtomicFile& file_;
-};
-
 /// `values` hold a row-major image whose first pixel is (x, y) in the file's coordinates.
 Imf::Slice slice_of(float* values, const Imath::V2i& origin, uint32_t width, uint32_t height) {
     return Imf::Slice::Make(Imf::FLOAT, values, origin, width, height, sizeof(float), sizeof(float) * width);
-}
-
-[[noreturn]] void throw_cannot_read(const std::filesystem::path& path, const std::string& reason, const std::string& hint) {
-    throw Error(ErrorKind::input, "cannot read the image: " + reason, path.string(), hint);
 }
 
 uint64_t bytes_of_pixel(const Imf::ChannelList& channels) {
@@ -120,10 +77,7 @@ ExrImage read_part(Imf::MultiPartInputFile& file, const std::filesystem::path& p
         part.readPixels(first, last);
     }
 
-    for (auto attribute = header.begin(); attribute != header.end(); ++attribute)
-        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute()))
-            image.attributes[attribute.name()] = text->value();
-    image.attributes.erase("type");  // OpenEXR's own, and added by it where the file has none.
+    image.attributes = text_attributes(header);
     return image;
 }
 
@@ -138,7 +92,7 @@ void write_exr(const std::filesystem::path& path, uint32_t width, uint32_t heigh
                const std::map<std::string, std::string>& attributes) {
     Imf::Header header(static_cast<int>(width), static_cast<int>(height));
     header.compression() = Imf::ZIP_COMPRESSION;
-    for (const auto& [name, text] : attributes) header.insert(name, Imf::StringAttribute(text));
+    set_text_attributes(header, attributes);
 
     Imf::FrameBuffer frame_buffer;
     for (const Channel& channel : channels) {
@@ -149,42 +103,20 @@ void write_exr(const std::filesystem::path& path, uint32_t width, uint32_t heigh
         frame_buffer.insert(channel.name, slice_of(const_cast<float*>(channel.values.data()), {0, 0}, width, height));
     }
 
-    AtomicFile file(path);
-    try {
-        OutputStream stream(file, path.string());
+    write_openexr(path, [&](Imf::OStream& stream) {
         Imf::OutputFile output(stream, header);
         output.setFrameBuffer(frame_buffer);
         output.writePixels(static_cast<int>(height));
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        throw Error(ErrorKind::internal, std::string("OpenEXR refused the image: ") + error.what(), path.string(),
-                    "please report it");
-    }
-    file.commit();
+    });
 }
 
 ExrImage read_exr(const std::filesystem::path& path) {
-    std::error_code status_error;
-    if (!std::filesystem::exists(path, status_error)) throw_cannot_read(path, "there is no such file", "check its name");
-    if (!std::filesystem::is_regular_file(path, status_error))
-        throw_cannot_read(path, "it is not a regular file", "name an OpenEXR file");
-    Imf::Header::setMaxImageSize(kMostSide_px, kMostSide_px);
-    Imf::Header::setMaxTileSize(kMostSide_px, kMostSide_px);
-    try {
+    ExrImage image;
+    read_openexr(path, kMostSide_px, kMostSide_px, [&] {
         Imf::MultiPartInputFile file(path.c_str());
-        return read_part(file, path);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        std::string reason = error.what();
-        if (reason.ends_with('.')) reason.pop_back();
-        throw_cannot_read(path, reason, "check that it is a whole OpenEXR file");
-    }
+        image = read_part(file, path);
+    });
+    return image;
 }
 
 }  // namespace gnomon::io

@@ -28,7 +28,8 @@ Json settings_json(const RenderSettings& settings);
 ///                 lights' shadow tests read; in the order in which the stages ran first; null where the device does not tell
 ///   buffers       {name: bytes}, the largest size of each
 ///   peak_bytes    most device memory at one time
-///   counts        {name: number}: triangles, prisms, ranges, samples, hits, shadow_tests, ...
+///   counts        {name: number}: triangles, prisms, ranges, samples, hits, shadow_tests, ...; what was not counted is not
+///                 there: camera_tests, ranges_visited and ranges_tested without RenderSettings::count_ranges
 ///   submissions   of work to the device, and the seconds of the
 ///   longest_dispatch  that ran as one
 ///   wall_seconds  on the host, for the frame without reading the scene and writing files

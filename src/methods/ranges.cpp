@@ -14,7 +14,7 @@ constexpr const char* kCullBackFaces = "cull-back-faces";
 
 bool culls_back_faces(const LightContext& light) { return light.parameter(kCullBackFaces).value_or(0) != 0; }
 
-SBuffer s_buffer(const LightContext& light, const Bins& bins, const gpu::Buffer* coverage) {
+SBuffer s_buffer_of(const LightContext& light, const Bins& bins, const gpu::Buffer* coverage) {
     const std::string shader = light.layout.stage("raster/" + light.raster);
     const bool orthographic = light.view.orthographic;
     const RasterSource source{light.geometry, bins, light.asked};
@@ -39,7 +39,7 @@ public:
         : coverage_(covered ? make_coverage(light.device, light.programs, {light.geometry, bins, light.asked},
                                             light.view.orthographic, culls_back_faces(light))
                             : CoverageMap()),
-          ranges_(s_buffer(light, bins, covered ? &coverage_.coverage : nullptr)),
+          ranges_(s_buffer_of(light, bins, covered ? &coverage_.coverage : nullptr)),
           bias_(map_bias(light)),
           bias_length_(bias_.length(light.view)) {}
 
@@ -49,7 +49,7 @@ public:
     std::vector<Band> bands(uint64_t bytes) const override { return ranges_.bands(bytes); }
     void fill(const Band& band) override { ranges_.fill(band); }
     uint32_t range_base() const override { return ranges_.range_base(); }
-    std::vector<uint32_t> texel_ranges(const std::vector<Band>& bands) override { return ranges_.texel_ranges(bands); }
+    const SBuffer* s_buffer() const override { return &ranges_; }
     std::map<std::string, uint64_t> counts() const override {
         std::map<std::string, uint64_t> counts = ranges_.counts();
         if (coverage_.coverage) {
@@ -93,7 +93,7 @@ std::vector<Parameter> dtr_parameters(bool prisms) {
 }
 
 std::unique_ptr<ShadowMap> make_s_buffer(const LightContext& light, const Bins& bins) {
-    return std::unique_ptr<SBuffer>(new SBuffer(s_buffer(light, bins, nullptr)));
+    return std::unique_ptr<SBuffer>(new SBuffer(s_buffer_of(light, bins, nullptr)));
 }
 
 std::unique_ptr<ShadowMap> make_dtr_map(const LightContext& light, const Bins& bins) {

@@ -14,9 +14,11 @@
 #include "pipeline/light_records.hpp"
 #include "pipeline/lights.hpp"
 #include "pipeline/memory_plan.hpp"
+#include "pipeline/range_collector.hpp"
 #include "pipeline/steps.hpp"
 #include "shared/film.h"
 #include "stages/cells.hpp"
+#include "stages/read_lists.hpp"
 #include "stages/sample.hpp"
 #include "views/view.hpp"
 
@@ -73,7 +75,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
         with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
     if (method.has_s_buffer() && !layout.folder.empty()) {
         std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
-        if (settings.keep_texel_ranges) stages.emplace_back("raster/texel_ranges");
+        if (keeps_ranges(settings)) stages.push_back(read_lists_stage(method.exit_depth));
         for (const std::string& stage : stages)
             programs.add(layout.stage(stage), compile_stage(stage, layout, device.limits().storage_reads()));
     }
@@ -85,6 +87,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     frame.samples.clear();
     frame.sample_visibility.clear();
     frame.texel_ranges.clear();
+    frame.light_ranges.clear();
     frame.width = settings.width;
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
@@ -125,7 +128,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     const uint64_t light_bytes = scene.lights.empty() ? 0 : bins.raster_vertices.bytes();
     const auto left = [&] { return device.budget_left() - std::min(device.budget_left(), light_bytes); };
     const uint64_t room = left();
-    const std::string pages = !method.has_s_buffer() ? "" : settings.keep_texel_ranges ? "all" : settings.pages;
+    const std::string pages = !method.has_s_buffer() ? "" : keeps_ranges(settings) ? "all" : settings.pages;
     const uint64_t most_slots =
         batch_slots(device, view, settings.spp, lit_planes(frame.light_count, method.fractional), pages == "asked", room / 4);
     Sampler sampler(device, programs, geometry, view, bins, lights,
@@ -171,10 +174,10 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
         }
         read_film(device, sampler.resolve(), frame, rect_of(view, windows[w]));
     }
-    if (settings.keep_texel_ranges) frame.texel_ranges = shadows.texel_ranges();
+    if (keeps_ranges(settings)) shadows.read_ranges(frame);
 
     const uint64_t hits = sampler.hit_count();
-    const uint64_t tests = settings.count_ranges ? sampler.test_count() : 0;
+    const uint64_t tests = settings.count_ranges ? sampler.test_count() : 0;  // The last work before the statistics.
     frame.stats = statistics(device);
     shadows.report(frame);
     frame.effective["camera_cells"] = std::to_string(bins.grid.cell_count);
@@ -185,11 +188,14 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     frame.stats.counts["bin_entries.camera"] = camera_entries;
     frame.stats.counts["samples"] = uint64_t(settings.width) * settings.height * settings.spp;
     frame.stats.counts["hits"] = hits;
-    frame.stats.counts["camera_tests"] = tests;
-    // Without the count: a test for each hit and light.
-    frame.stats.counts["shadow_tests"] = settings.count_ranges ? sampler.shadow_counts().cast : hits * frame.light_count;
-    frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;
-    frame.stats.counts["ranges_tested"] = sampler.shadow_counts().tested;
+    if (settings.count_ranges) {
+        frame.stats.counts["camera_tests"] = tests;
+        frame.stats.counts["shadow_tests"] = sampler.shadow_counts().cast;
+        frame.stats.counts["ranges_visited"] = sampler.shadow_counts().visited;
+        frame.stats.counts["ranges_tested"] = sampler.shadow_counts().tested;
+    } else {
+        frame.stats.counts["shadow_tests"] = hits * frame.light_count;  // One for each.
+    }
     frame.stats.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 

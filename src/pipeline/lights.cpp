@@ -6,6 +6,7 @@
 #include <gnomon/error.hpp>
 #include <optional>
 
+#include "pipeline/range_collector.hpp"
 #include "stages/cells.hpp"
 #include "stages/extent.hpp"
 
@@ -79,8 +80,7 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
 std::vector<Part> Lights::parts_of(const View& view) const {
     constexpr uint64_t kPrismHits = 4;  // Shadow tests that take as long as listing a prism and finding its ranges.
     const RenderSettings& settings = shared_.settings;
-    if (!settings.static_once || settings.keep_texel_ranges || !shared_.method.any_texels || !view.still())
-        return {Part::whole};
+    if (!settings.static_once || keeps_ranges(settings) || !shared_.method.any_texels || !view.still()) return {Part::whole};
     const uint32_t triangles = shared_.geometry.scene->triangle_count;
     const uint32_t still = gpu::values_of<uint32_t>(shared_.device, shared_.geometry.still_triangles)[0];
     if (still == triangles) return {Part::still};
@@ -235,7 +235,7 @@ void Lights::project(size_t face) {
 bool Lights::fit(size_t face) {
     Face& made = faces_[face];
     LightSide& side = made.side;
-    if (made.fitted || !shared_.casting || !side.view.orthographic || shared_.settings.keep_texel_ranges) return false;
+    if (made.fitted || !shared_.casting || !side.view.orthographic || keeps_ranges(shared_.settings)) return false;
     const Extents extents = casting_extents(shared_.device, shared_.programs, shared_.geometry, side.bins);
     made.fitted = true;
     if (extents.boxes.empty()) return false;
@@ -371,22 +371,31 @@ void Lights::report(Frame& frame) const {
     }
 }
 
-std::vector<std::vector<uint32_t>> Lights::texel_ranges() {
-    std::vector<std::vector<uint32_t>> all(light_count_);
+void Lights::read_ranges(Frame& frame) {
+    std::vector<RangeCollector> lights(light_count_, RangeCollector(shared_.settings, shared_.method.exit_depth));
     for (size_t i = 0; i < faces_.size(); ++i) {
-        Face& face = faces_[i];
-        std::vector<uint32_t> sums;
-        for (size_t w = 0; w < face.windows.size(); ++w) {
+        LightSide& side = faces_[i].side;
+        RangeCollector& light = lights[side.light_ix];
+        light.begin_face(side.view);
+        for (size_t w = 0; w < faces_[i].windows.size(); ++w) {
+            // What was filled before has no room beside it; half of what there is goes to what is read.
+            release();
             make(i, w);
-            const std::vector<uint32_t> ranges = face.side.map->texel_ranges(face.side.bands);
-            face.side.filled = kNotFilled;
-            sums.resize(ranges.size());
-            std::transform(ranges.begin(), ranges.end(), sums.begin(), sums.begin(), std::plus<>());
+            const SBuffer* s_buffer = side.map->s_buffer();
+            if (s_buffer == nullptr) continue;
+            try {
+                side.bands = side.map->bands(shared_.device.budget_left() / 2);
+            } catch (const BandTooLarge& error) {
+                refuse({error, 2});
+            }
+            for (const Band& band : side.bands) {
+                side.map->fill(band);
+                light.read(shared_.device, shared_.programs, *s_buffer, band);
+            }
         }
-        std::vector<uint32_t>& light = all[face.side.light_ix];
-        light.insert(light.end(), sums.begin(), sums.end());
     }
-    return all;
+    release();
+    for (RangeCollector& light : lights) light.finish(frame);
 }
 
 }  // namespace gnomon

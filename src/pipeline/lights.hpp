@@ -47,8 +47,8 @@ public:
 
     /// Write counts, by "name.light", and what was really used.
     void report(Frame& frame) const;
-    /// As Frame::texel_ranges.
-    std::vector<std::vector<uint32_t>> texel_ranges();
+    /// Fill Frame::texel_ranges and Frame::light_ranges, as far as the settings ask for them. Everything is made once more.
+    void read_ranges(Frame& frame);
 
 private:
     /// One projection of a light, of the scene or a part of it.

@@ -282,36 +282,4 @@ std::vector<gpu::Binding> SBuffer::read_bindings() const {
     return result;
 }
 
-std::vector<uint32_t> SBuffer::texel_ranges(const std::vector<Band>& bands) {
-    const uint64_t texels = uint64_t(grid().width) * grid().height;
-    if (texels * sizeof(uint32_t) > device_.limits().max_storage_range) {
-        throw Error(ErrorKind::out_of_memory, "ranges of " + std::to_string(texels) + " texels cannot be counted", "S-buffer",
-                    "use a smaller --shadow-res");
-    }
-    const gpu::Buffer counts = gpu::upload_new(device_, "texel_ranges", std::vector<uint32_t>(texels));
-    for (const Band& band : bands) {
-        fill(band);
-        add_texel_ranges(band, counts);
-    }
-    return gpu::download_vector<uint32_t>(device_, counts, texels);
-}
-
-void SBuffer::add_texel_ranges(const Band& band, const gpu::Buffer& counts) {
-    const uint64_t lists = uint64_t(band.item_count) * shared::kTileTexels;
-    const uint64_t parts = groups_of(std::max<uint64_t>(1, longest()), shared::kListChunk);
-    const gpu::Buffer iterators = device_.allocate("iterators", parts > 1 ? lists * 8 : 8);
-    std::vector<gpu::Binding> all = {{"TexelRanges", &counts}, {"Iterators", &iterators}};
-    for (const Memory& m : memory_) {
-        const LayoutBuffer& d = m.description;
-        if (!d.texel.empty() && !d.exit_only) all.push_back({d.texel, &m.buffer, d.format});
-    }
-    const gpu::Program& program = programs_.get(layout_.stage("raster/texel_ranges"), {parts > 1});
-    for (uint32_t part = 0; part < parts; ++part) {
-        gpu::Recorder& recorder = device_.recorder();
-        recorder.dispatch("raster/texel_ranges", program, all,
-                          shared::TexelRangesParams{grid(), band.item_first, band.item_count, range_base_, part},
-                          groups_of(lists, 64));
-    }
-}
-
 }  // namespace gnomon

@@ -19,6 +19,7 @@ public:
     uint64_t range_count() const { return counted().range_count; }
     uint64_t list_count() const { return list_count_; }
     const shared::ViewGrid& grid() const { return raster_->grid(); }
+    const Layout& layout() const { return layout_; }
     /// Of all lists and ranges, and of what they are made from.
     uint64_t map_bytes() const;
 
@@ -31,7 +32,7 @@ public:
     void fill(const Band& band) override;
     std::vector<gpu::Binding> read_bindings() const override;
     uint32_t range_base() const override { return range_base_; }
-    std::vector<uint32_t> texel_ranges(const std::vector<Band>& bands) override;
+    const SBuffer* s_buffer() const override { return this; }
 
 private:
     struct Memory {
@@ -53,7 +54,6 @@ private:
     void prepare(uint32_t item);
     size_t portion_of(uint32_t item) const;
     void record_pass(bool fill, const Band& part);
-    void add_texel_ranges(const Band& band, const gpu::Buffer& counts);
     std::vector<Band> parts(const Band& band) const;  ///< That one binding can hold, each of one portion.
     uint64_t bytes_per_range() const;
 

@@ -11,6 +11,8 @@
 
 namespace gnomon {
 
+class SBuffer;
+
 /// A run of items (a tile of a window in a cell of time) and the elements of their texels.
 struct Band {
     uint32_t item_first = 0;
@@ -68,9 +70,8 @@ public:
     /// Fill a band; the one before is forgotten.
     virtual void fill(const Band& band) = 0;
 
-    /// How many ranges each texel of the view has in the whole shutter, rows from the top, 0 outside of the window; empty for
-    /// maps without ranges. Fills all bands.
-    virtual std::vector<uint32_t> texel_ranges(const std::vector<Band>& /*bands*/) { return {}; }
+    /// What holds its ranges; none for maps without.
+    virtual const SBuffer* s_buffer() const { return nullptr; }
 
     /// What the test reads, the number of the first element in memory, and specialization constants of its own: constant_id 8,
     /// 9, ... (common/shadow_test.glsl).

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Prints the hash of a frame, for tests that need a process of their own: frame_hash SCENE WIDTH HEIGHT SPP SHADOW_RES
-// LAYOUT [METHOD].
+// Prints the hash of a frame, as gnomon compare --hash does of its file, for tests that need a process of their own: frame_hash
+// SCENE WIDTH HEIGHT SPP SHADOW_RES LAYOUT [METHOD].
 #include <cstdlib>
 #include <iostream>
 
+#include "io/image_hash.hpp"
 #include "test_scenes.hpp"
 
 int main(int argc, char** argv) {
@@ -20,7 +21,8 @@ int main(int argc, char** argv) {
         settings.layout = argv[6];
         if (argc == 8) settings.method = argv[7];
         if (settings.method == "accumulate") settings.parameters["slices"] = settings.spp;
-        std::cout << test::hash_of(test::shared_renderer().render(posed.scene, posed.poses, settings));
+        const Frame frame = test::shared_renderer().render(posed.scene, posed.poses, settings);
+        std::cout << io::hash_text(test::hash_of(frame));
     } catch (const std::exception& error) {
         std::cerr << error.what() << std::endl;
         return 1;

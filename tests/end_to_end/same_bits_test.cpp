@@ -84,7 +84,7 @@ protected:
 
 TEST_P(SameBits, AtEverySubgroupSize) {
     const std::string expected = hash(environment(0, ""));
-    EXPECT_THAT(expected, testing::MatchesRegex("[0-9]+"));
+    EXPECT_THAT(expected, testing::MatchesRegex("[0-9a-f]+"));
     expect_at_every_width(expected, "");
     std::cout << device(environment(0, "")) << ": " << expected << std::endl;
 }
@@ -93,7 +93,7 @@ TEST_P(SameBits, AtEverySubgroupSize) {
 // them.
 TEST_P(SameBits, WithinLowerLimits) {
     const std::string expected = hash(environment(0, ""));
-    EXPECT_THAT(expected, testing::MatchesRegex("[0-9]+"));
+    EXPECT_THAT(expected, testing::MatchesRegex("[0-9a-f]+"));
     for (const char* limits : kLowerLimits) {
         EXPECT_EQ(hash(environment(0, "") + "GNOMON_LIMITS=" + limits + " "), expected) << limits;
     }
@@ -105,7 +105,7 @@ TEST_P(SameBits, OnTheSecondDriver) {
     ASSERT_TRUE(std::filesystem::exists(icd)) << icd;
     EXPECT_NE(device(environment(0, icd)), device(environment(0, ""))) << "the second driver is the first";
     const std::string expected = hash(environment(0, ""));
-    EXPECT_THAT(expected, testing::MatchesRegex("[0-9]+"));
+    EXPECT_THAT(expected, testing::MatchesRegex("[0-9a-f]+"));
     EXPECT_EQ(hash(environment(0, icd)), expected);
     expect_at_every_width(expected, icd);
     std::cout << device(environment(0, icd)) << ": " << expected << std::endl;
@@ -116,7 +116,7 @@ class SameBitsOfMethod : public testing::TestWithParam<const char*> {};
 TEST_P(SameBitsOfMethod, WithinLowerLimits) {
     const std::string settings = std::string("72 50 5 200 ") + GetParam();
     const std::string expected = frame_hash(environment(0, ""), "two-cubes", settings);
-    EXPECT_THAT(expected, testing::MatchesRegex("[0-9]+"));
+    EXPECT_THAT(expected, testing::MatchesRegex("[0-9a-f]+"));
     for (const char* limits : {"texels=65536,storage_range=2097152", "storage_range=2097152,dispatch_ms=1,mapped=0"}) {
         const std::string where = environment(0, "") + "GNOMON_LIMITS=" + limits + " ";
         EXPECT_EQ(frame_hash(where, "two-cubes", settings), expected) << limits;

@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <bit>
-
+#include "io/image_hash.hpp"
 #include "scenes/scene_makers.hpp"
 #include "support/paths.hpp"
 #include "support/shared_devices.hpp"
@@ -78,13 +77,7 @@ const std::vector<float>& channel(const Frame& frame, std::string_view name) {
     return none;
 }
 
-uint64_t hash_of(const Frame& frame) {
-    uint64_t hash = 0xcbf29ce484222325u;  // FNV-1a, 64 bits at a time.
-    for (const Channel& c : frame.channels) {
-        for (const float value : c.values) hash = (hash ^ std::bit_cast<uint32_t>(value)) * 0x100000001b3u;
-    }
-    return hash;
-}
+uint64_t hash_of(const Frame& frame) { return io::image_hash(frame.width, frame.height, frame.channels); }
 
 glm::dquat looking(const glm::dvec3& direction) {
     return glm::quatLookAt(glm::normalize(direction), glm::dvec3(0.0, 1.0, 0.0));

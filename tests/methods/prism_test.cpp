@@ -171,8 +171,9 @@ TEST_F(PrismRangesTest, AreTheFragmentsOfATexelTwoAndTwo) {
                              pair_fragments(device(), programs(), {geometry, bins}, layout.stage("raster/prism"),
                                             {.orthographic = orthographic}, 1ull << 40),
                              layout);
-            s_buffer.fill(s_buffer.bands(1ull << 40).at(0));
-            const auto lists = read_exit_ranges(device(), s_buffer);
+            const Band band = s_buffer.bands(1ull << 40).at(0);
+            s_buffer.fill(band);
+            const auto lists = read_exit_ranges(device(), programs(), s_buffer, band);
             const uint32_t tiles_x = (c.width + 7) / 8;
             uint64_t fragments = 0, left_over = 0, ranges = 0, differ = 0;
             for (size_t i = 0; i < lists.size(); ++i) {

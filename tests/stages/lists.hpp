@@ -19,8 +19,8 @@ struct RangeRecord {
 };
 
 /// The ranges of a band that is filled, per list (item * kTileTexels + row * 8 + column), items counted from the band's first;
-/// each list sorted. Read by the layout's own GLSL.
-std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, const SBuffer& s_buffer, const std::string& layout,
+/// each list sorted.
+std::vector<std::vector<RangeRecord>> read_ranges(gpu::Device& device, Programs& programs, const SBuffer& s_buffer,
                                                   const Band& band);
 
 struct ExitRange {
@@ -29,7 +29,8 @@ struct ExitRange {
     float exit_depth = 0.0f;
 };
 
-/// All ranges, filled, of layout "array" with exit depths; per list, in their order there.
-std::vector<std::vector<ExitRange>> read_exit_ranges(gpu::Device& device, const SBuffer& s_buffer);
+/// The same of ranges with exit depths; each list in the layout's order.
+std::vector<std::vector<ExitRange>> read_exit_ranges(gpu::Device& device, Programs& programs, const SBuffer& s_buffer,
+                                                     const Band& band);
 
 }  // namespace gnomon::test

@@ -33,6 +33,8 @@ void add_devices(CLI::App& app, Invocation& invocation);
 void add_doctor(CLI::App& app, Invocation& invocation);
 void add_methods(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
+void add_probe(CLI::App& app, Invocation& invocation);
+void add_sbuffer(CLI::App& app, Invocation& invocation);
 void add_ranges(CLI::App& app, Invocation& invocation);
 void add_reproduce(CLI::App& app, Invocation& invocation);  ///< Only where the reference is built (GNOMON_HAS_REFERENCE).
 

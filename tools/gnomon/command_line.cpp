@@ -19,6 +19,8 @@ CommandLine::CommandLine()
     add_doctor(app_, invocation_);
     add_methods(app_, invocation_);
     add_compare(app_, invocation_);
+    add_probe(app_, invocation_);
+    add_sbuffer(app_, invocation_);
     add_ranges(app_, invocation_);
 #ifdef GNOMON_HAS_REFERENCE
     add_reproduce(app_, invocation_);

@@ -23,6 +23,13 @@ void refuse(const CLI::App& command, std::initializer_list<const char*> options,
 }
 
 int compare(const CLI::App& command, const CompareOptions& options) {
+    if (options.hash) {
+        refuse(command,
+               {"--again", "--threshold", "--metric", "--exposure", "--diff", "--diff-png", "--flip-png", "--by", "--after",
+                "--to"},
+               "comparisons, not hashes");
+        return compare_hashes(options);
+    }
     if (std::any_of(options.files.begin(), options.files.end(), is_json)) {
         refuse(command, {"--again", "--threshold", "--diff", "--diff-png", "--flip-png"}, "two images");
         if (is_json(options.files.back()))
@@ -60,7 +67,9 @@ void add_compare(CLI::App& app, Invocation& invocation) {
                     "each method, the error after the same seconds and the seconds to the same error");
     const std::string pair = "Options for two images", renders = "Options for renders";
     auto options = std::make_shared<CompareOptions>();
-    command->add_option("FILES", options->files, "A.exr B.exr, or RENDER.json... B.exr with the files of render --json")
+    command
+        ->add_option("FILES", options->files,
+                     "A.exr B.exr, or RENDER.json... B.exr with the files of render --json; images for --hash")
         ->required()
         ->type_name("");
     command
@@ -82,6 +91,9 @@ void add_compare(CLI::App& app, Invocation& invocation) {
             "Pictures are shown brighter by 2^EV: --diff-png, FLIP and SSIM")
         ->type_name("EV")
         ->default_str("0");
+    command->add_flag("--hash", options->hash,
+                      "Only a hash of the size, names and bits of the channels of each image, one a line; exit code 8 if they\n"
+                      "are not all the same");
     command->add_option("--json", options->json, "Write it as JSON; - for stdout, instead of the table")
         ->type_name("FILE.json");
     command

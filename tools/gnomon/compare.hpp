@@ -14,6 +14,7 @@ struct CompareOptions {
     std::string metric = "rmse";        ///< Of two images what the threshold is for, of renders the error.
     double exposure = 0.0;
     std::string json;
+    bool hash = false;
 
     // Of two images.
     std::string again;  ///< The first, rendered with another seed: tells its noise.
@@ -36,5 +37,9 @@ int compare_images(const CompareOptions& options);
 /// Renders against their reference: what each method's error is after the same seconds, and its seconds to the same error.
 /// Prints the tables or writes the JSON, and returns the exit code. Errors: those of render_curves.hpp.
 int compare_curves(const CompareOptions& options);
+
+/// Prints a hash of the bits of each image, a line for each, or writes the JSON, and returns the exit code: kOverThreshold
+/// where not all are the same. Errors: those of image_errors.hpp.
+int compare_hashes(const CompareOptions& options);
 
 }  // namespace gnomon::cli

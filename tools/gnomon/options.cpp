@@ -144,6 +144,12 @@ std::filesystem::path numbered_path(const std::filesystem::path& path, uint32_t 
     return path.parent_path() / (name.substr(0, begin) + fmt::format("{:0{}}", number, end - begin) + name.substr(end));
 }
 
+std::filesystem::path light_path(const std::filesystem::path& path, size_t light, size_t light_count) {
+    if (light_count == 1) return path;
+    std::filesystem::path result = path;
+    return result.replace_extension(".light" + std::to_string(light) + path.extension().string());
+}
+
 uint32_t choose_camera(const Scene& scene, const std::string& text) {
     const std::string option = "--camera";
     if (scene.cameras.empty())

@@ -55,6 +55,9 @@ void check_ending(const std::filesystem::path& path, const std::string& ending, 
 /// Errors: the file name has no such run, or has several.
 std::filesystem::path numbered_path(const std::filesystem::path& path, uint32_t number, const std::string& option);
 
+/// The file of one of several lights: FILE.light<i>.ENDING; of the only one the path.
+std::filesystem::path light_path(const std::filesystem::path& path, size_t light, size_t light_count);
+
 /// The camera of this name or, if there is none, of this index. Errors: no such camera, or several of this name.
 uint32_t choose_camera(const Scene& scene, const std::string& text);
 

@@ -8,12 +8,14 @@
 #include <gnomon/render.hpp>
 #include <memory>
 
-#include "additions.hpp"
 #include "command.hpp"
 #include "io/atomic_file.hpp"
 #include "io/exr.hpp"
+#include "io/heatmap.hpp"
 #include "io/png.hpp"
+#include "io/sbuffer_file.hpp"
 #include "methods/method.hpp"
+#include "prepared_scene.hpp"
 #include "progress.hpp"
 #include "render_options.hpp"
 
@@ -25,12 +27,10 @@ void check_outputs(const std::vector<FrameJob>& frames) {
     for (const FrameJob& frame : frames) {
         io::check_writable(frame.exr);
         if (frame.png) io::check_writable(*frame.png);
+        if (frame.heatmap) io::check_writable(*frame.heatmap);
+        if (frame.sbuffer) io::check_writable(*frame.sbuffer);
         if (!frame.json.empty() && frame.json != "-") io::check_writable(frame.json);
     }
-}
-
-void log_warnings(const std::vector<std::string>& warnings, size_t first) {
-    for (size_t i = first; i < warnings.size(); ++i) spdlog::warn("{}", warnings[i]);
 }
 
 void log_statistics(const FrameStats& stats) {
@@ -51,6 +51,28 @@ void check_finite(const Frame& frame, const std::string& scene) {
                     scene, "lower the intensity of its lights");
 }
 
+void write_sbuffers(const Frame& frame, const std::filesystem::path& path, const io::Json& settings,
+                    std::vector<std::string>& outputs) {
+    std::map<std::string, std::string> attributes = io::exr_attributes(settings, frame.effective);
+    for (size_t i = 0; i < frame.light_ranges.size(); ++i) {
+        const std::filesystem::path file = light_path(path, i, frame.light_ranges.size());
+        attributes["gnomon:light"] = std::to_string(i);
+        attributes["gnomon:faces"] = std::to_string(frame.light_ranges[i].faces);
+        io::write_sbuffer(file, frame.light_ranges[i], attributes);
+        outputs.push_back(file.string());
+    }
+}
+
+void write_heatmaps(const Frame& frame, uint32_t shadow_res, const std::filesystem::path& path,
+                    std::vector<std::string>& outputs) {
+    for (size_t i = 0; i < frame.texel_ranges.size(); ++i) {
+        const std::filesystem::path file = light_path(path, i, frame.texel_ranges.size());
+        const io::Heatmap map = io::heatmap(frame.texel_ranges[i], shadow_res);
+        io::write_png(file, map.width, map.height, map.rgb);
+        outputs.push_back(file.string());
+    }
+}
+
 void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions& options, const io::Json& settings,
                    const std::vector<std::string>& warnings) {
     std::vector<std::string> outputs = {job.exr.string()};
@@ -59,6 +81,8 @@ void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions&
         io::write_png(*job.png, frame.width, frame.height, io::tone_map(frame.channels, options.exposure));
         outputs.push_back(job.png->string());
     }
+    if (job.heatmap) write_heatmaps(frame, options.settings.shadow_res, *job.heatmap, outputs);
+    if (job.sbuffer) write_sbuffers(frame, *job.sbuffer, settings, outputs);
     if (!job.json.empty()) {
         const io::Json json = io::render_json(frame, settings, outputs, warnings);
         const bool one_of_several = job.json == "-" && job.number;  // Then each is on a line of its own.
@@ -67,17 +91,26 @@ void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions&
     spdlog::info("wrote {}; rendered in {:.2f} s", fmt::join(outputs, ", "), frame.stats.wall_seconds);
 }
 
+void check_triangles(const Scene& scene) {
+    if (scene.triangles.size() > io::kMostDumpedTriangles)
+        throw Error(ErrorKind::input,
+                    fmt::format("{} triangles, of which a float numbers {}", scene.triangles.size(), io::kMostDumpedTriangles),
+                    "--dump-sbuffer", "leave it out");
+}
+
 int render(const RenderOptions& options, bool quiet) {
     const std::vector<FrameJob> jobs = frame_jobs(options);
     check_outputs(jobs);
 
-    Scene scene = load_scene(options.scene);
-    log_warnings(scene.warnings, 0);
-    const size_t warned = scene.warnings.size();
-    const AnimationChoice animation = choose_animation(scene, options.animation);
-    RenderSettings settings = options.settings;
-    if (!options.camera.empty()) settings.camera = choose_camera(scene, options.camera);
-    const Additions additions(scene, animation, options, jobs);
+    PreparedScene prepared = prepare_scene(options, jobs);
+    const Scene& drawn = prepared.scene;
+    RenderSettings& settings = prepared.settings;
+    settings.keep_ranges = !options.sbuffer.empty();
+    settings.keep_texel_ranges = !options.heatmap.empty();
+    if (settings.keep_ranges) check_triangles(drawn);
+    if ((settings.keep_ranges || settings.keep_texel_ranges) && settings.pages == "asked")
+        spdlog::warn("for {} all pages are made, not those that hits ask for",
+                     settings.keep_ranges ? "--dump-sbuffer" : "--heatmap");
 
     Renderer renderer(options.device, options.validate);
     log_device(renderer.device(), !options.device.empty());
@@ -86,13 +119,11 @@ int render(const RenderOptions& options, bool quiet) {
     const auto frame_count = static_cast<double>(jobs.size());
     ProgressBar bar(frame_samples * frame_count, quiet);
     int exit_code = kDone;
-    const Scene drawn = additions.empty() ? std::move(scene) : additions.apply(std::move(scene));
-    log_warnings(drawn.warnings, warned);
     const LoadedScene loaded = renderer.load(drawn);
     Frame frame;
     for (size_t i = 0; i < jobs.size(); ++i) {
         const FrameJob& job = jobs[i];
-        const std::vector<Pose> poses = pose_scene(drawn, animation, job.shutter.open, job.shutter.close, options.time_steps);
+        const std::vector<Pose> poses = prepared.poses(job.shutter, options.time_steps);
         renderer.render(loaded, poses, settings, frame, [&](double share) {
             bar.update((static_cast<double>(i) + share) / frame_count);
             return true;
@@ -124,8 +155,10 @@ void add_render(CLI::App& app, Invocation& invocation) {
             warn_if_unused(*command, "--fps", "--frames");
             warn_if_unused(*command, "--shutter-angle", "--frames");
             const std::string& method = options->settings.method;
-            if (command->count("--layout") > 0 && !find_method(method).has_s_buffer())
-                throw Error(ErrorKind::usage, "method " + method + " has no S-buffer", "--layout", "leave it out");
+            for (const char* option : {"--layout", "--dump-sbuffer", "--heatmap"}) {
+                if (command->count(option) > 0 && !find_method(method).has_s_buffer())
+                    throw Error(ErrorKind::usage, "method " + method + " has no S-buffer", option, "leave it out");
+            }
             return render(*options, invocation.quiet);
         };
     });

@@ -22,8 +22,10 @@ struct GroundOption {
 struct RenderOptions {
     std::string scene;
     std::string exr;
-    std::string png;   ///< Empty: none.
-    std::string json;  ///< Empty: none. "-": stdout.
+    std::string png;      ///< Empty: none.
+    std::string json;     ///< Empty: none. "-": stdout.
+    std::string sbuffer;  ///< Empty: none. A file for each light; likewise the next.
+    std::string heatmap;
     RenderSettings settings;
     Shutter shutter{0.0, 0.0208333};
     std::optional<FrameRange> frames;
@@ -45,9 +47,14 @@ struct FrameJob {
     std::filesystem::path exr;
     std::optional<std::filesystem::path> png;
     std::string json;  ///< As RenderOptions::json.
+    std::optional<std::filesystem::path> sbuffer = {};
+    std::optional<std::filesystem::path> heatmap = {};
 };
 
-/// Declare the options; `options` must live until the command line is parsed.
+/// Declare the options that say what one frame is; `options` must live until the command line is parsed.
+void bind_frame_options(CLI::App& command, RenderOptions& options);
+
+/// Those and the options of outputs and of sequences.
 void bind_render_options(CLI::App& command, RenderOptions& options);
 
 /// The frames in order; never empty. Errors: ErrorKind::usage for names with a wrong ending, without #### in a sequence, or

@@ -42,6 +42,31 @@ TEST_F(CliCompareTest, TableOnStdout) {
               "Z                 0        0            0        0        -            0       inf            0           0\n");
 }
 
+TEST_F(CliCompareTest, Hashes) {
+    io::write_exr(folder / "same.exr", 2, 1, std::vector<Channel>{{"Z", {5.0f, 5.0f}}, {"R", {1.0f, 2.0f}}},
+                  {{"gnomon:scene", "another"}});
+    const CommandResult one = compare({"--hash", "a.exr"});
+    EXPECT_EQ(one.exit_code, 0) << one.err;
+    EXPECT_THAT(one.out, ::testing::MatchesRegex("[0-9a-f]+  a.exr\n"));
+    const std::string hash = one.out.substr(0, 16);
+    const CommandResult same = compare({"--hash", "a.exr", "same.exr"});
+    EXPECT_EQ(same.exit_code, 0);
+    EXPECT_EQ(same.out, hash + "  a.exr\n" + hash + "  same.exr\n");
+    const CommandResult differ = compare({"--hash", "a.exr", "same.exr", "b.exr", "--json=-"});
+    EXPECT_EQ(differ.exit_code, 8);
+    const json document = json::parse(differ.out);
+    EXPECT_EQ(document["schema"], "gnomon.hashes");
+    EXPECT_EQ(document["files"][1], json({{"path", "same.exr"}, {"hash", hash}}));
+    EXPECT_NE(document["files"][2]["hash"], hash);
+    EXPECT_EQ(document["same"], false);
+    EXPECT_EQ(compare({"--hash", "a.exr", "b.exr", "--channels=Z"}).exit_code, 0);
+    EXPECT_EQ(compare({"--hash", "a.exr", "only_r.exr"}).exit_code, 8);
+    EXPECT_EQ(compare({"--hash", "a.exr", "only_r.exr", "--channels=R"}).exit_code, 0);
+    EXPECT_EQ(compare({"--hash", "a.exr", "only_r.exr", "--channels=Z"}).exit_code, 3);
+    EXPECT_EQ(compare({"--hash", "a.exr", "b.exr", "--threshold=1"}).exit_code, 2);
+    EXPECT_EQ(compare({"--hash", "a.exr", "none.exr"}).exit_code, 3);
+}
+
 TEST_F(CliCompareTest, NamesADifferenceOfDriver) {
     const auto write = [&](const char* name, const std::map<std::string, std::string>& attributes) {
         io::write_exr(folder / name, 2, 1, std::vector<Channel>{{"R", {1.0f, 2.0f}}}, attributes);

@@ -55,6 +55,9 @@ TEST_F(CliRenderTest, FrameWithAllOutputs) {
     EXPECT_EQ(document["settings"]["width"], 32);
     EXPECT_EQ(document["outputs"], json({"a.exr", "a.png"}));
     EXPECT_FALSE(document["stages"].empty());
+    EXPECT_TRUE(document["counts"].contains("shadow_tests"));
+    for (const char* not_counted : {"camera_tests", "ranges_visited", "ranges_tested"})
+        EXPECT_FALSE(document["counts"].contains(not_counted)) << not_counted;
     EXPECT_EQ(document["device"], image.attributes.at("gnomon:device"));
     EXPECT_EQ(document["driver"], image.attributes.at("gnomon:driver"));
     EXPECT_THAT(run_gnomon(folder, {"devices"}).out, HasSubstr(document["driver"].get<std::string>()));

@@ -113,4 +113,9 @@ TEST(Options, ChooseCamera) {
     EXPECT_GNOMON_ERROR(cli::choose_camera(scene, "back"), ErrorKind::usage, "there is no camera 'back', --camera; ");
 }
 
+TEST(Options, FilesOfLights) {
+    EXPECT_EQ(cli::light_path("a/ranges.exr", 0, 1), "a/ranges.exr");
+    EXPECT_EQ(cli::light_path("a.b/ranges.0001.exr", 12, 13), "a.b/ranges.0001.light12.exr");
+}
+
 }  // namespace gnomon::test
