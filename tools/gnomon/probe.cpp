@@ -87,7 +87,6 @@ void print_probe(const std::vector<ProbedTexel>& texels) {
 }
 
 int probe(const ProbeOptions& options, bool quiet) {
-    catch_interrupts();
     if (!options.svg.empty()) {
         check_ending(options.svg, ".svg", "-o");
         io::check_writable(options.svg);
