@@ -15,7 +15,7 @@
 #include <sstream>
 
 #include "gpu/reflection.hpp"
-#include "layouts/apart.hpp"
+#include "layouts/child_process.hpp"
 #include "source_table.h"
 #include "text/read_text.hpp"
 
@@ -159,7 +159,7 @@ Compiled compile(const EmbeddedFile& source, const std::string& name, const fs::
     return compiled;
 }
 
-std::vector<uint32_t> compile_apart(const std::string& stage, const Layout& layout, bool storage_reads) {
+std::vector<uint32_t> compile_in_child(const std::string& stage, const Layout& layout, bool storage_reads) {
     struct Process {
         Process() { glslang::InitializeProcess(); }
         ~Process() { glslang::FinalizeProcess(); }
@@ -177,7 +177,7 @@ std::vector<uint32_t> compile_apart(const std::string& stage, const Layout& layo
         return "+" + std::string(reinterpret_cast<const char*>(compiled.words.data()), compiled.words.size() * 4);
     };
     std::string reason;
-    const std::string result = run_apart(work, {}, reason);
+    const std::string result = run_in_child(work, {}, reason);
     if (result.empty()) {
         throw Error(ErrorKind::input, "layout does not compile: the compiler " + reason, where,
                     "write what is nested deeply, expanded or long in a simpler way; " + std::string(kHint));
@@ -272,13 +272,13 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
         }
     }
     for (const LayoutBuffer& b : layout.buffers) {
-        auto d = std::find_if(declared.begin(), declared.end(), named(b.block));
-        if (writes && d->min_bytes > b.element_bytes) {
-            throw Error(ErrorKind::input,
-                        "block '" + b.block + "' holds " + std::to_string(d->min_bytes) +
-                            " bytes before any array without a length, its buffer may have " + std::to_string(b.element_bytes),
-                        where + ":" + std::to_string(b.line), kHint);
-        }
+        if (!writes) break;
+        const auto d = std::find_if(declared.begin(), declared.end(), named(b.block));
+        if (d->min_bytes <= b.element_bytes) continue;
+        throw Error(ErrorKind::input,
+                    "block '" + b.block + "' holds " + std::to_string(d->min_bytes) +
+                        " bytes before any array without a length, its buffer may have " + std::to_string(b.element_bytes),
+                    where + ":" + std::to_string(b.line), kHint);
     }
     for (const gpu::Resource& d : declared) {
         if (std::none_of(expected.begin(), expected.end(), named(d.name)))
@@ -290,7 +290,7 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
 }  // namespace
 
 std::vector<uint32_t> compile_stage(const std::string& stage, const Layout& layout, bool storage_reads) {
-    std::vector<uint32_t> words = compile_apart(stage, layout, storage_reads);
+    std::vector<uint32_t> words = compile_in_child(stage, layout, storage_reads);
     check_buffers(words, stage, layout, storage_reads);
     return words;
 }

@@ -142,7 +142,7 @@ LayoutBuffer parse_buffer(const nlohmann::json& json, std::string_view text, con
 }
 
 // What a buffer says of others.
-void check_buffers(const std::vector<LayoutBuffer>& buffers, const std::string& where) {
+void check_names(const std::vector<LayoutBuffer>& buffers, const std::string& where) {
     for (const LayoutBuffer& buffer : buffers) {
         const auto fail = [&](const std::string& what) {
             throw Error(ErrorKind::input, "buffer '" + buffer.block + "' " + what, where + ":" + std::to_string(buffer.line),
@@ -207,7 +207,7 @@ Layout parse_layout(std::string_view text, const std::string& where) {
     if (!buffers->is_array()) members.fail("buffers", "is not an array");
     for (const auto& buffer : *buffers) layout.buffers.push_back(parse_buffer(buffer, text, where, layout.buffers.size()));
     members.check_known();
-    check_buffers(layout.buffers, where);
+    check_names(layout.buffers, where);
     return layout;
 }
 

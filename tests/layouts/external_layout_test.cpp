@@ -9,7 +9,7 @@
 #include <gnomon/render.hpp>
 #include <thread>
 
-#include "layouts/apart.hpp"
+#include "layouts/child_process.hpp"
 #include "layouts/layout.hpp"
 #include "methods/method.hpp"
 #include "support/paths.hpp"
@@ -300,13 +300,13 @@ TEST_F(ExternalLayoutTest, IncludesOnlyFilesOfItsFolder) {
     expect_input_error({"layout does not compile", "nested too deeply", path("layout.glsl")});
 }
 
-TEST(RunApart, WhatAChildMayTake) {
+TEST(RunInChild, WhatAChildMayTake) {
     std::string reason;
-    EXPECT_EQ(run_apart([] { return std::string("a\0b", 3); }, {}, reason), std::string("a\0b", 3));
-    EXPECT_EQ(run_apart([] { return std::string(1 << 20, 'x'); }, {}, reason).size(), 1u << 20);
+    EXPECT_EQ(run_in_child([] { return std::string("a\0b", 3); }, {}, reason), std::string("a\0b", 3));
+    EXPECT_EQ(run_in_child([] { return std::string(1 << 20, 'x'); }, {}, reason).size(), 1u << 20);
     EXPECT_EQ(reason, "");
     const auto reason_of = [&](const std::function<std::string()>& work, const ChildLimits& limits) {
-        EXPECT_EQ(run_apart(work, limits, reason), "");
+        EXPECT_EQ(run_in_child(work, limits, reason), "");
         return reason;
     };
     using std::chrono::seconds;

@@ -19,6 +19,6 @@ struct ChildLimits {
 /// What `work` returned in a child process, which ends with it. `work` calls no driver and takes no lock that another thread
 /// may hold. Where it ends otherwise: nothing, and `reason`: "took more than 30 s", "took more than 1024 MiB", "crashed (signal
 /// 11)". Errors: ErrorKind::out_of_memory, where no process can be made.
-std::string run_apart(const std::function<std::string()>& work, const ChildLimits& limits, std::string& reason);
+std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits, std::string& reason);
 
 }  // namespace gnomon

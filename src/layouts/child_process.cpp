@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "layouts/apart.hpp"
+#include "layouts/child_process.hpp"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -8,6 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -75,7 +76,7 @@ bool read_all(int in, Clock::time_point deadline, uint64_t most, std::string& re
 
 }  // namespace
 
-std::string run_apart(const std::function<std::string()>& work, const ChildLimits& limits, std::string& reason) {
+std::string run_in_child(const std::function<std::string()>& work, const ChildLimits& limits, std::string& reason) {
     int ends[2];
     const auto fail = [] {
         throw Error(ErrorKind::out_of_memory, std::string("no process can be made: ") + std::strerror(errno),
