@@ -1,44 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// A short queue of the list entries that an invocation has still to test. Where the layout's ranges can be fetched by their place, one bit per range walked; else
-// the entries themselves. Needs the layout.
-#ifdef LAYOUT_INDEXED
-
-const uint kMostCandidates = 32u;
+// A short queue of the list entries that an invocation has still to test, in registers: an array that is indexed by a variable would lie in memory.
+const uint kMostCandidates = 4u;
 
 struct Candidates {
-    uint first;  // Place of the range that bit 0 stands for.
-    uint bits;
+    uvec4 entries;  // The last first.
+    uint count;
 };
 
-Candidates candidates_begin(ListIterator it) { return Candidates(it.x, 0u); }
-void candidates_add(inout Candidates c, inout uint count, uint entry, bool wanted) {
-    c.bits |= wanted ? 1u << count : 0u;
-    ++count;
+Candidates no_candidates() { return Candidates(uvec4(0u), 0u); }
+void push(inout Candidates c, uint entry, bool wanted) {
+    c.entries = wanted ? uvec4(entry, c.entries.xyz) : c.entries;
+    c.count += wanted ? 1u : 0u;
 }
-bool candidates_more(Candidates c, uint next, uint count) { return c.bits != 0u; }
-uint candidates_next(inout Candidates c, inout uint next) {
-    uint bit = uint(findLSB(c.bits));
-    c.bits &= c.bits - 1u;
-    return floatBitsToUint(layout_at(c.first + bit).w);
+uint pop(inout Candidates c) {
+    uint entry = c.entries.x;
+    c.entries = c.entries.yzww;
+    --c.count;
+    return entry;
 }
-
-#else
-
-const uint kMostCandidates = 16u;
-
-struct Candidates {
-    uint entries[kMostCandidates];
-};
-
-Candidates candidates_begin(ListIterator it) {
-    Candidates c;
-    return c;
-}
-void candidates_add(inout Candidates c, inout uint count, uint entry, bool wanted) {
-    c.entries[count] = entry;
-    count += wanted ? 1u : 0u;
-}
-bool candidates_more(Candidates c, uint next, uint count) { return next < count; }
-uint candidates_next(inout Candidates c, inout uint next) { return c.entries[next++]; }
-
-#endif

@@ -62,20 +62,18 @@ void main() {
     uint steps = 0u;
     bool more = test.here && !shadowed && layout_more(it);
     while (more && !shadowed) {
-        Candidates candidates = candidates_begin(it);
-        uint count = 0u;
-        while (more && count < kMostCandidates) {
+        Candidates candidates = no_candidates();
+        while (more && candidates.count < kMostCandidates) {
             vec4 range = layout_next(it);
             bool candidate = t >= range.x && t <= range.y && range.z < limit && (floatBitsToUint(range.w) & ~kReversed) != test.own;
-            candidates_add(candidates, count, floatBitsToUint(range.w), candidate);
+            push(candidates, floatBitsToUint(range.w), candidate);
             if (kCount) ++visited;
             if (kCount) tested += candidate ? 1u : 0u;
             if (kResume) ++steps;
             more = layout_more(it) && (!kResume || steps < kListChunk);
         }
-        uint next = 0u;
-        while (candidates_more(candidates, next, count) && !shadowed) {
-            shadowed = occludes(candidates_next(candidates, next), test);
+        while (candidates.count > 0u && !shadowed) {
+            shadowed = occludes(pop(candidates), test);
         }
     }
     // What is shadowed has no more to walk.

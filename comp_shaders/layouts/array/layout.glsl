@@ -30,8 +30,6 @@ ListIterator layout_begin(uint list) { return ListIterator(fetch_list_offsets(li
 ListIterator layout_end() { return ListIterator(0u, 0u); }
 bool layout_more(ListIterator it) { return it.x < it.y; }
 vec4 layout_next(inout ListIterator it) { return fetch_ranges(it.x++ - range_base()); }
-#define LAYOUT_INDEXED  // A range can be fetched by its place, the x that the iterator had before it.
-vec4 layout_at(uint place) { return fetch_ranges(place - range_base()); }
 #ifdef GN_RANGE_EXIT
 READ_FLOAT(18, range_exits)
 float layout_exit_depth(ListIterator it) { return fetch_range_exits(it.x - range_base()); }
