@@ -10,7 +10,6 @@ layout(constant_id = 6) const bool kFirst = false;   // Nothing was written to L
 layout(constant_id = 7) const bool kAsked = false;   // Only pages that were asked for are there, and items are numbered among them.
 layout(binding = 5, scalar) buffer Lit { uint lit[]; };
 layout(binding = 6, scalar) buffer ShadowCounts { uint shadow_counts[]; };
-layout(binding = 7, scalar) buffer Iterators { uvec2 iterators[]; };
 READ_VEC4(14, asked)
 READ_UVEC2(15, asked_nodes)
 READ_UINT(40, leaves)  // Layouts have bindings 16 to 39.

@@ -14,6 +14,7 @@ layout(local_size_x = 64) in;
 layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const bool kAsked = false;
+layout(constant_id = 3) const bool kResume = false;  // Lists are walked in parts.
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
@@ -25,10 +26,8 @@ layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/source_page.glsl"
 #include "common/spread.glsl"
 #include "common/range_count.glsl"
-uint range_base() { return params.range_first; }
 #define GN_RANGE_EXIT
-#define LAYOUT_WRITE
-#include "layout.glsl"
+#include "common/write_lists.glsl"
 
 void main() {
     uint number = spread_first(params.item_count, 1u);
@@ -49,11 +48,9 @@ void main() {
 
     uint k = page.begin + params.list_first;
     uint end = min(page.end, k + kListChunk);
-    uint list = (item - params.item_first) * kTileTexels + texel;
-    uint count = 0u;
-#ifdef LAYOUT_CURSOR
-    if (kFill && inside) count = layout_cursor(list);
-#endif
+    List list = list_at(item - params.band_first, texel);
+    uint count = 0u, cursor = 0u;
+    if (kFill && inside) cursor = open_list(list);
 
     while (k < end) {
         uint entry = fetch_bin_entries(k);
@@ -67,12 +64,8 @@ void main() {
             stay = stay && (kOrthographic || enter_depth > 0.0 || exit_depth > 0.0);
             if (stay) {
                 if (kFill) {
-                    vec4 range = vec4((cell_start + stays.enter[j]) * per_cell, (cell_start + stays.leave[j]) * per_cell, enter_depth, uintBitsToFloat(entry));
-#ifdef LAYOUT_CURSOR
-                    layout_emit(count, range, exit_depth);
-#else
-                    layout_emit(list, range, exit_depth);
-#endif
+                    float enter = (cell_start + stays.enter[j]) * per_cell, leave = (cell_start + stays.leave[j]) * per_cell;
+                    layout_emit(list, cursor, Range(enter, leave, enter_depth, entry, exit_depth));
                 }
                 ++count;
             }
@@ -80,11 +73,9 @@ void main() {
         ++k;
     }
     if (!kFill) {
-        if (inside) layout_count(list, count, params.list_first == 0u);
+        if (inside) count_ranges(list, count);
         add_range_count(item / kCountBlock, inside ? count : 0u);
-    } else {
-#ifdef LAYOUT_CURSOR
-        if (inside) layout_set_cursor(list, count);
-#endif
+    } else if (inside) {
+        close_list(list, cursor);
     }
 }

@@ -15,6 +15,7 @@ layout(constant_id = 0) const bool kFill = false;
 layout(constant_id = 1) const bool kOrthographic = false;
 layout(constant_id = 2) const uint kCrew = 8u;
 layout(constant_id = 3) const bool kAsked = false;
+layout(constant_id = 4) const bool kResume = false;  // Lists are walked in parts.
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 READ_UVEC4(2, triangles)
@@ -27,9 +28,7 @@ layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/spread.glsl"
 #include "common/range_count.glsl"
 #include "common/crew.glsl"
-uint range_base() { return params.range_first; }
-#define LAYOUT_WRITE
-#include "layout.glsl"
+#include "common/write_lists.glsl"
 
 EdgeBound shown(EdgeBound e, uint from) { return EdgeBound(subgroupShuffle(e.start, from), subgroupShuffle(e.end, from)); }
 
@@ -61,18 +60,17 @@ void main() {
     uint entries = inside ? min(end - begin, kListChunk) : 0u;
     uint rounds = rounds_of(entries);
 
-    // Lists of this column's texels, counted from the dispatch's first; texels outside the image get no ranges.
-    uint list_first = (item - params.item_first) * kTileTexels + lane;
-    const uint list_step = kTileSize;
+    // Lists of this column's texels; texels outside the image get no ranges.
+    uint tile = item - params.band_first;
     uint rows = inside && page.tile_x * kTileSize + lane < grid.width ? min(grid.height - page.tile_y * kTileSize, kTileSize) : 0u;
 
-    uint count[8];
-    [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] = 0u;
-#ifdef LAYOUT_CURSOR
+    uint cursors[8];  // Or counts.
+    [[unroll]] for (uint r = 0u; r < 8u; ++r) cursors[r] = 0u;
     if (kFill) {
-        [[unroll]] for (uint r = 0u; r < 8u; ++r) count[r] = r < rows ? layout_cursor(list_first + r * list_step) : 0u;
+        [[unroll]] for (uint r = 0u; r < 8u; ++r) {
+            if (r < rows) cursors[r] = open_list(list_at(tile, r * kTileSize + lane));
+        }
     }
-#endif
 
     uint k = 0u;
     while (k < rounds) {
@@ -95,18 +93,16 @@ void main() {
             while (listed && row <= last_row) {
                 vec3 times = texel_times(column, float(row) - 3.5);
                 bool hit = touches_texel(times, slack) && row < rows;
-                uint cursor = 0u;
-                [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-                    cursor = r == row ? count[r] : cursor;
-                    count[r] += r == row && hit ? 1u : 0u;
-                }
-                if (kFill && hit) {
-                    vec4 range = vec4(range_times(times, cell_start, per_cell, slack), nearest, uintBitsToFloat(entry));
-#ifdef LAYOUT_CURSOR
-                    layout_emit(cursor, range);
-#else
-                    layout_emit(list_first + row * list_step, range);
-#endif
+                if (kFill) {
+                    uint cursor = 0u;
+                    [[unroll]] for (uint r = 0u; r < 8u; ++r) cursor = r == row ? cursors[r] : cursor;
+                    if (hit) {
+                        vec2 span_of = range_times(times, cell_start, per_cell, slack);
+                        layout_emit(list_at(tile, row * kTileSize + lane), cursor, Range(span_of.x, span_of.y, nearest, entry, nearest));
+                    }
+                    [[unroll]] for (uint r = 0u; r < 8u; ++r) cursors[r] = r == row ? cursor : cursors[r];
+                } else {
+                    [[unroll]] for (uint r = 0u; r < 8u; ++r) cursors[r] += r == row && hit ? 1u : 0u;
                 }
                 ++row;
             }
@@ -117,15 +113,13 @@ void main() {
     if (!kFill) {
         uint sum = 0u;
         [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-            if (r < rows) layout_count(list_first + r * list_step, count[r], params.list_first == 0u);
-            sum += count[r];
+            if (r < rows) count_ranges(list_at(tile, r * kTileSize + lane), cursors[r]);
+            sum += cursors[r];
         }
         add_range_count(item / kCountBlock, inside ? sum : 0u);
     } else {
-#ifdef LAYOUT_CURSOR
         [[unroll]] for (uint r = 0u; r < 8u; ++r) {
-            if (r < rows) layout_set_cursor(list_first + r * list_step, count[r]);
+            if (r < rows) close_list(list_at(tile, r * kTileSize + lane), cursors[r]);
         }
-#endif
     }
 }

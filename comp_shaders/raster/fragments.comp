@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Purpose: the fragments of all prisms at each texel's centre, a linked list per texel and cell. Count, or fill. One prism's fragments lie side by side in a list.
 // Reads:   bin_offsets, bin_entries, triangles, raster_vertices, coverage (with kCoverage: covered texels get none)
-// Writes:  RasterCounts (fragments, 64 bits per kCountBlock items); FragmentHeads, Fragments (metres, time in the cell, triangle, next or kNone), FragmentCount
+// Writes:  RasterCounts (fragments, 64 bits per kCountBlock items), and by raster/fragments/layout.json: fragment_heads, fragments (metres, time in the cell, triangle,
+//          next or kNone)
 // Grid:    8 invocations per tile and cell
 // Based on: Hong and Oh 2018, "Motion-blurred shadows utilizing a depth-time ranges shadow map", sections 4.1 and 4.2
 #extension GL_GOOGLE_include_directive : require
@@ -12,9 +13,9 @@ layout(binding = 4, scalar) buffer RasterCounts { uvec2 range_counts[]; };
 
 layout(constant_id = 4) const bool kCoverage = false;
 READ_UINT(6, coverage)
-layout(binding = 16, scalar) buffer FragmentHeads { uint fragment_heads[]; };
-layout(binding = 17, scalar) writeonly buffer Fragments { uvec4 fragments[]; };
-layout(binding = 18, scalar) buffer FragmentCount { uint fragment_count; };
+uint part_first_tile() { return params.item_first - params.band_first; }
+#define LAYOUT_WRITE
+#include "layout_interface.glsl"
 #include "common/range_count.glsl"
 
 uint total = 0u;
@@ -24,13 +25,12 @@ void visit(uint list, uint triangle, PrismFragments f) {
     uint count = uint(bitCount(f.covered));
     total += count;
     if (kPass == 0u) return;
-    uint node = atomicAdd(fragment_count, count);
-    uint next = atomicExchange(fragment_heads[list], node);
+    uint node = allocate_ranges(count);
+    uint next = exchange_fragment_heads(part_first_tile() * kTileTexels + list, node);
     uint last = node + count - 1u;
     [[unroll]] for (uint i = 0u; i < kPrismTriangles; ++i) {
         if ((f.covered & (1u << i)) != 0u) {
-            fragments[node - params.range_first] =
-                uvec4(floatBitsToUint(f.metres[i]), floatBitsToUint(f.time[i]), triangle, node == last ? next : node + 1u);
+            set_fragments(node, uvec4(floatBitsToUint(f.metres[i]), floatBitsToUint(f.time[i]), triangle, node == last ? next : node + 1u));
             ++node;
         }
     }

@@ -24,17 +24,17 @@ layout(binding = 4, scalar) buffer RasterCounts { uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/spread.glsl"
 #include "common/range_count.glsl"
-uint range_base() { return params.range_first; }
 #define GN_RANGE_EXIT
-#define LAYOUT_WRITE
-#include "layout.glsl"
+#include "common/write_lists.glsl"
 
 void main() {
     uint number = spread_first(params.item_count, 1u);
     bool inside = number < params.item_count;
     number = min(number, params.item_count - 1u);
     uint item = params.item_first + number;
-    uint list = number * kTileTexels + gl_LocalInvocationID.x;
+    uint texel = gl_LocalInvocationID.x;
+    List list = list_at(item - params.band_first, texel);
+    uint walk = number * kTileTexels + texel;
     ViewGrid grid = params.grid;
     float cell_start = float(kAsked ? fetch_pages(2u * item).z : item - item / grid.cell_count * grid.cell_count);
     float per_cell = 1.0 / float(grid.cell_count);
@@ -42,16 +42,14 @@ void main() {
     // Fragments of the prism at hand, by depth; equally deep ones by time.
     vec2 sorted[kPrismTriangles];
     [[unroll]] for (uint i = 0u; i < kPrismTriangles; ++i) sorted[i] = vec2(kFarthest, 0.0);
-    uint count = 0u, left_over = 0u, several = 0u;
-#ifdef LAYOUT_CURSOR
-    if (kFill && inside) count = layout_cursor(list);
-#endif
-    uint node = fetch_fragment_heads(item * kTileTexels + gl_LocalInvocationID.x);
-    if (kResume && params.list_first > 0u) node = resume[list];
+    uint count = 0u, cursor = 0u, left_over = 0u, several = 0u;
+    if (kFill && inside) cursor = open_list(list);
+    uint node = fetch_fragment_heads((item - params.fragment_item) * kTileTexels + texel);
+    if (kResume && params.list_first > 0u) node = resume[walk];
     uint id = kNone, held = 0u, steps = 0u;
     bool more = inside && node != kNone;
     while (more) {
-        uvec4 fragment = fetch_fragments(node != kNone ? node - params.fragment_first : 0u);
+        uvec4 fragment = fetch_fragments(node != kNone ? node : 0u);
         uint next_id = node != kNone ? fragment.z : kNone;
         bool ends = next_id != id;
         if (ends) {
@@ -60,12 +58,8 @@ void main() {
                     bool in_order = sorted[i].y <= sorted[i + 1u].y;
                     vec2 enter = in_order ? sorted[i] : sorted[i + 1u], leave = in_order ? sorted[i + 1u] : sorted[i];
                     if (kFill) {
-                        vec4 range = vec4((cell_start + enter.y) * per_cell, (cell_start + leave.y) * per_cell, enter.x, uintBitsToFloat(id));
-#ifdef LAYOUT_CURSOR
-                        layout_emit(count, range, leave.x);
-#else
-                        layout_emit(list, range, leave.x);
-#endif
+                        float start = (cell_start + enter.y) * per_cell, end = (cell_start + leave.y) * per_cell;
+                        layout_emit(list, cursor, Range(start, end, enter.x, id, leave.x));
                     }
                     ++count;
                 }
@@ -91,9 +85,9 @@ void main() {
             ++steps;
         }
     }
-    if (kResume && inside) resume[list] = node;
+    if (kResume && inside) resume[walk] = node;
     if (!kFill) {
-        if (inside) layout_count(list, count, params.list_first == 0u);
+        if (inside) count_ranges(list, count);
         add_range_count(item / kCountBlock, inside ? count : 0u);
         uint all_left = subgroupAdd(left_over);
         uint all_several = subgroupAdd(several);
@@ -101,9 +95,7 @@ void main() {
             atomicAdd(pair_counts[item / kCountBlock].x, all_left);
             atomicAdd(pair_counts[item / kCountBlock].y, all_several);
         }
-    } else {
-#ifdef LAYOUT_CURSOR
-        if (inside) layout_set_cursor(list, count);
-#endif
+    } else if (inside) {
+        close_list(list, cursor);
     }
 }

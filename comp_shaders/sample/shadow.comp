@@ -8,7 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define GN_SHELLS
 #include "common/shadow_test.glsl"
-#include "common/list.glsl"
+#include "common/read_lists.glsl"
 #include "common/candidates.glsl"
 
 // Does a vertex of a triangle lie above the hit's, on the light's side? A shared one may seem to, by half a tolerance.
@@ -52,11 +52,11 @@ void main() {
     float limit = deepest(test);
 
     // Lit from behind a closed shell's triangle begins its way to the light inside the shell.
-    bool shadowed = !kAsked && is_inside(test);
+    bool shadowed = (!kAsked && is_inside(test)) || known_shadowed(i, test);
     uint visited = 0u;
     uint tested = 0u;
-    ListIterator it = layout_begin(test.here ? test.list : params.item_first * kTileTexels);
-    if (kResume && params.part > 0u && i < hit_count()) it = iterators[i];
+    Query query = Query(t, limit, false);
+    Iterator it = walk_from(i, list_of(test), query);
     // Collect candidates, then test them: two short loops instead of a loop in a loop, whose entry costs lavapipe more than a range. What is read behind a loop that
     // invocations leave at different times must be the loop's own state, tested at its top: lavapipe gives values made in the body those of the last iteration of any.
     uint steps = 0u;
@@ -64,9 +64,9 @@ void main() {
     while (more && !shadowed) {
         Candidates candidates = no_candidates();
         while (more && candidates.count < kMostCandidates) {
-            vec4 range = layout_next(it);
-            bool candidate = t >= range.x && t <= range.y && range.z < limit && (floatBitsToUint(range.w) & ~kReversed) != test.own;
-            push(candidates, floatBitsToUint(range.w), candidate);
+            Range range = layout_next(it, query);
+            bool candidate = t >= range.enter && t <= range.leave && range.depth < limit && (range.entry & ~kReversed) != test.own;
+            push(candidates, range.entry, candidate);
             if (kCount) ++visited;
             if (kCount) tested += candidate ? 1u : 0u;
             if (kResume) ++steps;
@@ -76,13 +76,7 @@ void main() {
             shadowed = occludes(pop(candidates), test);
         }
     }
-    // What is shadowed has no more to walk.
-    if (kResume && i < hit_count()) {
-        if (shadowed) {
-            it = layout_end();
-        }
-        iterators[i] = it;
-    }
+    leave_walk(i, it);
     write_lit(i, test, shadowed);
     if (kCount) add_shadow_counts(i, visited, tested, test.here);
 }

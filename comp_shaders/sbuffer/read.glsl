@@ -7,41 +7,25 @@ layout(constant_id = 0) const bool kCopy = false;
 layout(constant_id = 1) const bool kResume = false;  // Lists are walked in parts of kListChunk.
 layout(binding = 0, scalar) buffer Places { uint places[]; };  // Of each list: how many ranges it has; kCopy: where its next one goes.
 layout(binding = 1, scalar) writeonly buffer Found { ListRange found[]; };
-layout(binding = 2, scalar) buffer Iterators { uvec2 iterators[]; };
 layout(push_constant, scalar) uniform Push { ReadListsParams params; };
-uint range_base() { return params.range_first; }
-#define ListIterator uvec2
 #define LAYOUT_READ
-#include "layout.glsl"
-
-ListRange next_range(inout ListIterator it) {
-    ListRange result;
-#ifdef GN_RANGE_EXIT
-    result.exit_depth = layout_exit_depth(it);
-#endif
-    vec4 range = layout_next(it);
-    result.enter = range.x;
-    result.leave = range.y;
-    result.depth = range.z;
-    result.entry = floatBitsToUint(range.w);
-#ifndef GN_RANGE_EXIT
-    result.exit_depth = range.z;
-#endif
-    return result;
-}
+#include "common/s_buffer.glsl"
+layout(binding = 2, scalar) buffer Iterators { Iterator iterators[]; };
 
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     bool inside = i < params.list_count;
     i = min(i, params.list_count - 1u);
-    ListIterator it = layout_begin(params.list_first + i);
+    uint number = params.list_first + i;
+    Query query = Query(0.0, kFarthest, true);
+    Iterator it = layout_begin(list_at(number / kTileTexels, number % kTileTexels), query);
     if (kResume && params.part > 0u) it = iterators[i];
     uint place = places[i];
     uint walked = 0u;
     bool more = inside && layout_more(it);
     while (more) {
-        ListRange range = next_range(it);
-        if (kCopy) found[place] = range;
+        Range range = layout_next(it, query);
+        if (kCopy) found[place] = ListRange(range.enter, range.leave, range.depth, range.exit_depth, range.entry);
         ++place;
         ++walked;
         more = layout_more(it) && walked < kListChunk;

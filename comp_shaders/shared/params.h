@@ -41,6 +41,8 @@ const uint kListChunk = 6144u;
 const uint kPairChunk = 32768u;
 // Most workgroups of the shadow test in a row; its dispatch can be cut between rows.
 const uint kShadowRow = 128u;
+// Sizes of a layout, with the ranges.
+const uint kMostSizes = 4u;
 // The specialization constant of all stages: see common/stage.glsl.
 const uint kThreadsConstant = 100u;
 // Triangles that one invocation bounds.
@@ -153,17 +155,23 @@ struct RasterParams {
     ViewGrid grid;
     uint item_count;  // Items (a tile of the window in a cell: tile * cell_count + cell), or pages, of this dispatch.
     uint item_first;
-    uint list_first;      // Walk entries [list_first, list_first + kListChunk) of each list.
-    uint range_first;     // The number of the first range in the bound memory.
-    uint fragment_first;  // raster/prism: the number of the first fragment in memory.
-    uint entry_first;     // As in PageParams.
+    uint list_first;     // Walk entries [list_first, list_first + kListChunk) of each list.
+    uint last;           // No dispatch after this one walks these lists on.
+    uint band_first;     // The first item of the band that is made.
+    uint place_first[kMostSizes];  // Of each size of the layout: the place in the band that is bound as the first.
+    uint entry_first;    // As in PageParams.
+    uint fragment_item;  // raster/prism: the first item whose fragments are in memory.
+};
+
+struct SizeParams {
+    uint list_first;  // Lists [list_first, list_first + list_count) of the window.
+    uint list_count;
 };
 
 struct ReadListsParams {
-    uint list_first;  // Lists [list_first, list_first + list_count).
+    uint list_first;  // Lists [list_first, list_first + list_count) of the band.
     uint list_count;
-    uint range_first;  // The number of the first range in memory.
-    uint part;         // How many times kListChunk ranges of each list were walked before.
+    uint part;  // How many times kListChunk ranges of each list were walked before.
 };
 
 // A range of an S-buffer as sbuffer/read gives it. Times are of the shutter. Depths are as the raster stage writes them: with

@@ -11,12 +11,14 @@
 #include <gnomon/error.hpp>
 #include <optional>
 #include <regex>
+#include <set>
 #include <spirv/unified1/spirv.hpp11>
 #include <sstream>
 
 #include "gpu/reflection.hpp"
 #include "layouts/child_process.hpp"
-#include "source_table.h"
+#include "layouts/interface.hpp"
+#include "layouts/sources.hpp"
 #include "text/read_text.hpp"
 
 namespace gnomon {
@@ -40,20 +42,14 @@ constexpr spv::Capability kCapabilities[] = {
     spv::Capability::GroupNonUniformArithmetic,
     spv::Capability::GroupNonUniformShuffle,
 };
-constexpr uint32_t kFirstBinding = 16;
-constexpr uint32_t kEndBinding = 40;
-constexpr const char* kHint = "see CONTRIBUTING.md, A new layout";
+constexpr const char* kHint = "see docs/layouts.md";
 
-const EmbeddedFile* find_source(const std::string& name) {
-    auto found = std::find_if(std::begin(kSourceTable), std::end(kSourceTable), [&](const auto& s) { return s.name == name; });
-    return found == std::end(kSourceTable) ? nullptr : found;
-}
-
-// Resolves includes: those of the stages among the embedded sources, whose names are relative; layout.glsl, and what it
-// includes, in the layout's folder under absolute names.
+// Resolves includes: those of the stages, and of a layout that is built in, among the embedded sources, whose names are relative;
+// layout.glsl in a folder, and what it includes, there, under absolute names.
 class Includer : public glslang::TShader::Includer {
 public:
-    explicit Includer(const fs::path& folder) : folder_(folder) {}
+    explicit Includer(const Layout& layout)
+        : folder_(layout.folder), built_in_("layouts/" + layout.name), interface_(layout_interface(layout)) {}
 
     IncludeResult* includeLocal(const char* header, const char* includer, size_t depth) override {
         return resolve(header, fs::path(includer).parent_path(), depth);
@@ -68,9 +64,10 @@ private:
     IncludeResult* resolve(const fs::path& header, const fs::path& from, size_t depth) {
         if (depth > kMostNested) return failed("includes are nested too deeply");
         if (from.is_absolute()) return in_folder(header, from);
-        if (header == "layout.glsl") return in_folder(header, folder_);
-        for (const fs::path& name : {(from / header).lexically_normal(), header}) {
-            if (const EmbeddedFile* source = find_source(name.generic_string())) return made(name, source->text);
+        if (header == "layout_interface.glsl") return made(header, interface_);
+        if (header == "layout.glsl" && !folder_.empty()) return in_folder(header, folder_);
+        for (const fs::path& name : {(from / header).lexically_normal(), header, built_in_ / header}) {
+            if (const auto text = find_source(name.generic_string())) return made(name, *text);
         }
         return failed("no such source");
     }
@@ -97,7 +94,8 @@ private:
     }
     IncludeResult* failed(std::string_view message) { return made({}, message); }
 
-    fs::path folder_;
+    fs::path folder_, built_in_;
+    std::string interface_;
     size_t count_ = 0, bytes_ = 0;  // Of includes from there.
     std::deque<std::string> texts_;
     std::deque<IncludeResult> results_;
@@ -135,9 +133,9 @@ struct Compiled {
 
 // In a process that may be lost: glslang recurses as deep as an expression does, and a small text may be expanded to a large
 // one.
-Compiled compile(const EmbeddedFile& source, const std::string& name, const fs::path& folder, bool storage_reads) {
-    const char* text = source.text.data();
-    const int length = static_cast<int>(source.text.size());
+Compiled compile(std::string_view source, const std::string& name, const Layout& layout, bool storage_reads) {
+    const char* text = source.data();
+    const int length = static_cast<int>(source.size());
     const char* text_name = name.c_str();
 
     // As glslangValidator --target-env vulkan1.3.
@@ -148,7 +146,7 @@ Compiled compile(const EmbeddedFile& source, const std::string& name, const fs::
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_3);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_6);
     const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-    Includer includer(folder);
+    Includer includer(layout);
     if (!shader.parse(GetDefaultResources(), 100, false, messages, includer)) return {{}, shader.getInfoLog()};
 
     glslang::TProgram program;
@@ -167,12 +165,12 @@ std::vector<uint32_t> compile_in_child(const std::string& stage, const Layout& l
     static const Process process;
 
     const std::string name = stage + ".comp";
-    const EmbeddedFile* source = find_source(name);
-    if (source == nullptr) throw Error(ErrorKind::internal, "no such stage", stage, "report this as a bug");
+    const std::optional<std::string_view> source = find_source(name);
+    if (!source) throw Error(ErrorKind::internal, "no such stage", stage, "report this as a bug");
     const std::string where = (layout.folder / "layout.glsl").string();
     // First a byte that says which, then the words or the log.
     const auto work = [&] {
-        const Compiled compiled = compile(*source, name, layout.folder, storage_reads);
+        const Compiled compiled = compile(*source, name, layout, storage_reads);
         if (compiled.words.empty()) return "-" + compiled.log;
         return "+" + std::string(reinterpret_cast<const char*>(compiled.words.data()), compiled.words.size() * 4);
     };
@@ -192,19 +190,6 @@ std::vector<uint32_t> compile_in_child(const std::string& stage, const Layout& l
                     where, kHint);
     }
     return words;
-}
-
-// What the manifest promises a stage: the blocks to one that writes, the texel buffers to one that reads.
-std::vector<gpu::Resource> promised(const Layout& layout, bool writes) {
-    std::vector<gpu::Resource> result;
-    for (const LayoutBuffer& b : layout.buffers) {
-        if (writes) {
-            result.push_back({b.block, gpu::ResourceKind::storage_buffer});
-        } else if (!b.texel.empty()) {
-            result.push_back({b.texel, is_float(b.format) ? gpu::ResourceKind::float_texels : gpu::ResourceKind::uint_texels});
-        }
-    }
-    return result;
 }
 
 std::string name_of(uint32_t capability) {
@@ -245,45 +230,32 @@ void check_code(const gpu::Reflection& code, const Layout& layout) {
     }
 }
 
-void check_buffers(const std::vector<uint32_t>& words, const std::string& stage, const Layout& layout, bool storage_reads) {
-    const std::string where = (layout.folder / "layout.json").string();
+// What a stage binds with any layout, and what the manifest stands for. Stages that only a layout has bind no more than sbuffer/size.
+std::set<std::string> expected_resources(const std::string& stage, const Layout& layout) {
+    std::set<std::string> names = {"LayoutCounters", "counts", "Sizes", "SizeTotals"};
+    for (const LayoutSize& size : layout.sizes) names.insert(read_name(size));
+    for (const LayoutBuffer& buffer : layout.buffers) names.insert({buffer.name, written_name(buffer)});
+    const std::string compiled = stage + "@array";
+    if (has_shader(compiled)) {
+        for (const gpu::Resource& resource : gpu::reflect(find_shader(compiled), {}).resources) names.insert(resource.name);
+    }
+    return names;
+}
+
+void check_resources(const std::vector<uint32_t>& words, const std::string& stage, const Layout& layout) {
+    const std::string where = (layout.folder / "layout.glsl").string();
     gpu::Reflection code;
     try {
         code = gpu::reflect({stage, words}, {});
     } catch (const Error& error) {
-        throw Error(ErrorKind::input, std::string("not what a layout may declare: ") + error.what(),
-                    (layout.folder / "layout.glsl").string(), kHint);
+        throw Error(ErrorKind::input, std::string("not what a layout may declare: ") + error.what(), where, kHint);
     }
     check_code(code, layout);
-    std::vector<gpu::Resource> declared = std::move(code.resources);
-    std::erase_if(declared, [](const gpu::Resource& r) { return r.binding < kFirstBinding || r.binding >= kEndBinding; });
-    const auto named = [](const std::string& name) { return [&name](const gpu::Resource& r) { return r.name == name; }; };
-    const bool writes = stage.starts_with("raster/");
-    const std::vector<gpu::Resource> expected = promised(layout, writes);
-    for (const gpu::Resource& e : expected) {
-        auto d = std::find_if(declared.begin(), declared.end(), named(e.name));
-        if (d == declared.end()) {
-            throw Error(ErrorKind::input, "layout.glsl declares no '" + e.name + "' at a binding from 16 to 39 for " + stage,
-                        where, kHint);
-        }
-        // What is declared by READ_... is a storage buffer in that variant.
-        if (d->kind != e.kind && !(storage_reads && d->kind == gpu::ResourceKind::storage_buffer)) {
-            throw Error(ErrorKind::input, "'" + e.name + "' is of another kind or format in layout.glsl", where, kHint);
-        }
-    }
-    for (const LayoutBuffer& b : layout.buffers) {
-        if (!writes) break;
-        const auto d = std::find_if(declared.begin(), declared.end(), named(b.block));
-        if (d->min_bytes <= b.element_bytes) continue;
-        throw Error(ErrorKind::input,
-                    "block '" + b.block + "' holds " + std::to_string(d->min_bytes) +
-                        " bytes before any array without a length, its buffer may have " + std::to_string(b.element_bytes),
-                    where + ":" + std::to_string(b.line), kHint);
-    }
-    for (const gpu::Resource& d : declared) {
-        if (std::none_of(expected.begin(), expected.end(), named(d.name)))
-            throw Error(ErrorKind::input, "no buffer for '" + d.name + "', which layout.glsl declares for " + stage, where,
-                        kHint);
+    const std::set<std::string> expected = expected_resources(stage, layout);
+    for (const gpu::Resource& resource : code.resources) {
+        if (expected.count(resource.name) > 0) continue;
+        throw Error(ErrorKind::input, "layout declares '" + resource.name + "', which gnomon binds nothing to", where,
+                    "name it among the 'buffers' of layout.json; " + std::string(kHint));
     }
 }
 
@@ -291,8 +263,26 @@ void check_buffers(const std::vector<uint32_t>& words, const std::string& stage,
 
 std::vector<uint32_t> compile_stage(const std::string& stage, const Layout& layout, bool storage_reads) {
     std::vector<uint32_t> words = compile_in_child(stage, layout, storage_reads);
-    check_buffers(words, stage, layout, storage_reads);
+    check_resources(words, stage, layout);
     return words;
+}
+
+void add_stages(Programs& programs, const Layout& layout, const std::vector<std::string>& stages, bool storage_reads) {
+    if (is_compiled(layout)) return;
+    for (const std::string& stage : stages) {
+        // What lies in a folder may be another by now.
+        const std::string name = layout.stage(stage);
+        if (!layout.folder.empty() || !programs.has(name)) programs.add(name, compile_stage(stage, layout, storage_reads));
+    }
+}
+
+std::vector<std::string> s_buffer_stages(const Layout& layout) {
+    std::vector<std::string> stages;
+    const std::string exits = layout.exit_depth ? "_exits" : "";
+    if (layout.sizes.size() > 1) stages.emplace_back("sbuffer/size");
+    if (layout.prepare != Layout::Pass::none) stages.push_back("sbuffer/prepare" + exits);
+    if (layout.finish != Layout::Pass::none) stages.push_back("sbuffer/finish" + exits);
+    return stages;
 }
 
 }  // namespace gnomon

@@ -73,11 +73,11 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     const std::string raster = choose_raster(method, settings.raster);
     const Layout layout =
         with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
-    if (method.has_s_buffer() && !layout.folder.empty()) {
-        std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
+    if (method.has_s_buffer()) {
+        std::vector<std::string> stages = s_buffer_stages(layout);
+        stages.insert(stages.end(), {"raster/" + raster, method.shadow_stage});
         if (keeps_ranges(settings)) stages.push_back(read_lists_stage(method.exit_depth));
-        for (const std::string& stage : stages)
-            programs.add(layout.stage(stage), compile_stage(stage, layout, device.limits().storage_reads()));
+        add_stages(programs, layout, stages, device.limits().storage_reads());
     }
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;

@@ -5,7 +5,7 @@
 #include <gnomon/render.hpp>
 
 #include "stages/programs.hpp"
-#include "stages/raster.hpp"
+#include "stages/s_buffer.hpp"
 #include "views/view.hpp"
 
 namespace gnomon {

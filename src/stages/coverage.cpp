@@ -33,10 +33,15 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterS
         all.push_back({"Coverage", &map.coverage, {}, first * item_bytes, count * item_bytes});
         for (uint32_t pass = 0; pass < 4; ++pass) {
             for (uint32_t part = 0; part < source.part_count(); ++part) {
+                shared::RasterParams params{};
+                params.grid = source.bins.grid;
+                params.item_count = count;
+                params.item_first = first;
+                params.list_first = part * shared::kListChunk;
+                params.entry_first = source.entry_first();
                 recorder.dispatch(
                     "raster/coverage",
-                    programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}), all,
-                    shared::RasterParams{source.bins.grid, count, first, part * shared::kListChunk, 0, 0, source.entry_first()},
+                    programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}), all, params,
                     groups_of(count, 8));
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/prism.hpp"
 
+#include "layouts/sources.hpp"
 #include "math/prism.h"
 #include "stages/grid.hpp"
 
@@ -9,22 +10,10 @@ namespace {
 
 using gpu::Texel;
 
-// The linked list of fragments, 16 bytes each.
+// The linked list of fragments.
 Layout fragment_layout() {
-    Layout layout;
-    layout.name = "fragments";
-    layout.buffers = {{.block = "FragmentHeads",
-                       .texel = "fragment_heads",
-                       .per = LayoutBuffer::Per::list,
-                       .clear = LayoutBuffer::Clear::value,
-                       .clear_value = shared::kNone},
-                      {.block = "Fragments",
-                       .texel = "fragments",
-                       .format = Texel::rgba32_uint,
-                       .element_bytes = 16,
-                       .per = LayoutBuffer::Per::range},
-                      {.block = "FragmentCount", .clear = LayoutBuffer::Clear::range_first}};
-    return layout;
+    constexpr const char* kManifest = "raster/fragments/layout.json";
+    return parse_layout(*find_source(kManifest), kManifest);
 }
 
 class CollectFragments final : public RasterStage {
@@ -37,6 +26,7 @@ public:
     uint32_t items_per_group() const override { return 8; }
     uint64_t longest() const override { return uint64_t(source_.longest()) * shared::kPrismTriangles; }
     uint32_t part_count() const override { return source_.part_count(); }
+    bool keeps_list_state() const override { return false; }
     const char* timing(bool fill) const override { return fill ? "raster/fragments" : "raster/count_fragments"; }
     const gpu::Program& program(bool fill) const override {
         return programs_.get("raster/fragments", {fill, settings_.orthographic, settings_.cull_back_faces,
@@ -102,8 +92,11 @@ public:
     uint64_t source_bytes() const override { return fragments_.map_bytes(); }
 
     std::vector<Band> portions() const override { return portions_; }
-    void prepare(const Band& portion) override { fragments_.fill(portion); }
-    uint32_t fragment_base() const override { return fragments_.range_base(); }
+    void prepare(const Band& portion) override {
+        fragments_.fill(portion);
+        fragment_item_ = portion.item_first;
+    }
+    uint32_t fragment_item() const override { return fragment_item_; }
 
 private:
     gpu::Device& device_;
@@ -112,6 +105,7 @@ private:
     std::string shader_;
     SBuffer fragments_;
     std::vector<Band> portions_;
+    uint32_t fragment_item_ = 0;  // The first of the portion.
     gpu::Buffer pair_counts_, resume_;
 };
 

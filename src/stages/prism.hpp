@@ -3,7 +3,7 @@
 // them. Source: Hong and Oh 2018, sections 4.1 to 4.3.
 #pragma once
 
-#include "stages/raster.hpp"
+#include "stages/s_buffer.hpp"
 
 namespace gnomon {
 

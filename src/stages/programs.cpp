@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/programs.hpp"
 
+#include <algorithm>
 #include <gnomon/error.hpp>
 
 #include "shader_table.h"
@@ -8,12 +9,19 @@
 
 namespace gnomon {
 
+bool has_shader(const std::string& name) {
+    const auto named = [&](const ShaderEntry& entry) { return name == entry.name; };
+    return std::any_of(std::begin(kShaderTable), std::end(kShaderTable), named);
+}
+
 gpu::Shader find_shader(const std::string& name) {
     for (const auto& entry : kShaderTable) {
         if (name == entry.name) return {name, {entry.words, entry.word_count}};
     }
     throw Error(ErrorKind::internal, "no such stage", name, "report this as a bug");
 }
+
+bool Programs::has(const std::string& name) const { return added_.count(name) > 0 || has_shader(name); }
 
 void Programs::add(const std::string& name, std::vector<uint32_t> spirv) {
     std::vector<uint32_t>& known = added_[name];

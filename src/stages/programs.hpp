@@ -14,10 +14,14 @@ namespace gnomon {
 /// layout; with "+storage" behind it, the variant whose read-only data are storage buffers. Errors: ErrorKind::internal if
 /// there is none.
 gpu::Shader find_shader(const std::string& name);
+bool has_shader(const std::string& name);
 
 class Programs {
 public:
     explicit Programs(gpu::Device& device) : device_(device) {}
+
+    /// There is a stage of this name.
+    bool has(const std::string& name) const;
 
     /// A stage that is not embedded, or another version of one that was added before.
     void add(const std::string& name, std::vector<uint32_t> spirv);

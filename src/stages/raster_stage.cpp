@@ -31,6 +31,7 @@ public:
         std::vector<uint32_t> all = {fill};
         all.insert(all.end(), constants_.begin(), constants_.end());
         all.push_back(source_.asked != nullptr);
+        all.push_back(part_count() > 1);
         return programs_.get(shader_, all);
     }
     std::vector<gpu::Binding> bindings() const override { return source_.bindings(); }

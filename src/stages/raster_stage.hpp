@@ -30,8 +30,10 @@ public:
     /// Runs of whole blocks of items whose source can be in memory at one time; empty: all items. prepare() makes one's.
     virtual std::vector<Band> portions() const { return {}; }
     virtual void prepare(const Band& /*portion*/) {}
+    /// Its lists are each one invocation's (common/write_lists.glsl).
+    virtual bool keeps_list_state() const { return true; }
     virtual uint64_t source_bytes() const { return 0; }   ///< Of all portions.
-    virtual uint32_t fragment_base() const { return 0; }  ///< RasterParams::fragment_first.
+    virtual uint32_t fragment_item() const { return 0; }  ///< RasterParams::fragment_item.
     virtual uint32_t entry_first() const { return 0; }    ///< RasterParams::entry_first.
 };
 

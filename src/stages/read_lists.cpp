@@ -37,14 +37,14 @@ public:
 
 private:
     void walk(uint64_t list_first, uint32_t list_count, const gpu::Buffer& places, const gpu::Buffer& found, bool copy) {
-        const gpu::Buffer iterators = device_.allocate("iterators", parts_ > 1 ? list_count * sizeof(glm::uvec2) : 8);
+        const gpu::Buffer iterators = device_.allocate("iterators", (parts_ > 1 ? list_count : 1) * sizeof(glm::uvec4));
         std::vector<gpu::Binding> all = {{"Places", &places}, {"Found", &found}, {"Iterators", &iterators}};
         for (const gpu::Binding& binding : s_buffer_.read_bindings()) all.push_back(binding);
         const gpu::Program& program = programs_.get(stage_, {copy, parts_ > 1});
         for (uint32_t part = 0; part < parts_; ++part)
             device_.recorder().dispatch(
                 "sbuffer/read", program, all,
-                shared::ReadListsParams{static_cast<uint32_t>(list_first), list_count, s_buffer_.range_base(), part},
+                shared::ReadListsParams{static_cast<uint32_t>(list_first), list_count, part},
                 groups_of(list_count, 64));
     }
 
@@ -62,19 +62,19 @@ std::string read_lists_stage(bool exits) { return exits ? "sbuffer/read_exits" :
 void read_lists(gpu::Device& device, Programs& programs, const SBuffer& s_buffer, const Band& band, const ReadLists& what,
                 const OnLists& on_lists) {
     Reader reader(device, programs, s_buffer, what.exits);
-    const uint64_t end = (uint64_t(band.item_first) + band.item_count) * shared::kTileTexels;
-    for (uint64_t first = uint64_t(band.item_first) * shared::kTileTexels; first < end; first += kMostLists) {
+    const uint64_t base = uint64_t(band.item_first) * shared::kTileTexels, end = uint64_t(band.item_count) * shared::kTileTexels;
+    for (uint64_t first = 0; first < end; first += kMostLists) {
         const auto count = static_cast<uint32_t>(std::min<uint64_t>(kMostLists, end - first));
         const std::vector<uint32_t> counts = reader.counts(first, count);
         if (what.only_counts) {
-            on_lists(first, counts, {});
+            on_lists(base + first, counts, {});
             continue;
         }
         for (uint32_t from = 0, to = 0; from < count; from = to) {
             uint64_t ranges = counts[to++];
             while (to < count && ranges + counts[to] <= kMostRanges) ranges += counts[to++];
             const std::span<const uint32_t> run = std::span(counts).subspan(from, to - from);
-            on_lists(first + from, run, reader.ranges(first + from, run, ranges));
+            on_lists(base + first + from, run, reader.ranges(first + from, run, ranges));
         }
     }
 }

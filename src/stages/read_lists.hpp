@@ -6,7 +6,7 @@
 #include <span>
 
 #include "stages/programs.hpp"
-#include "stages/raster.hpp"
+#include "stages/s_buffer.hpp"
 
 namespace gnomon {
 

@@ -97,7 +97,7 @@ void Sampler::trace(const Batch& batch) {
 }
 
 void Sampler::reserve_walk(uint64_t longest) {
-    const uint64_t bytes = walk_parts(longest) > 1 ? tracer_.hits().bytes() * 2 : 8;
+    const uint64_t bytes = walk_parts(longest) > 1 ? tracer_.hits().bytes() * 4 : 16;
     if (!iterators_ || iterators_.bytes() < bytes) iterators_ = device_.allocate("iterators", bytes);
 }
 

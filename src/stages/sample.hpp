@@ -2,7 +2,7 @@
 // The wavefront camera sampler: trace, compact, shadow test, shade; a queue between the stages, a batch of samples at a time.
 #pragma once
 
-#include "stages/raster.hpp"
+#include "stages/s_buffer.hpp"
 #include "stages/trace.hpp"
 
 namespace gnomon {

@@ -8,7 +8,7 @@
 #include "lists.hpp"
 #include "soup.hpp"
 #include "stage_test.hpp"
-#include "stages/raster.hpp"
+#include "stages/s_buffer.hpp"
 
 namespace gnomon::test {
 namespace {

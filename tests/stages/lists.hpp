@@ -2,7 +2,7 @@
 // The lists that the device made, read back.
 #pragma once
 
-#include "stages/raster.hpp"
+#include "stages/s_buffer.hpp"
 
 namespace gnomon::test {
 

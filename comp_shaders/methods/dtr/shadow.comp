@@ -8,7 +8,7 @@
 #extension GL_GOOGLE_include_directive : require
 #define GN_RANGE_EXIT
 #include "common/shadow_test.glsl"
-#include "common/list.glsl"
+#include "common/read_lists.glsl"
 #include "methods/dtr/ranges.glsl"
 
 void main() {

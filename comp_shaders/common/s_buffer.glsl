@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lists of an S-buffer in a layout (docs/layouts.md). With LAYOUT_WRITE defined its buffers can be written and read, with LAYOUT_READ read; with neither there are
+// none. Numbers count from the first of what is in memory, a band. Needs: common/stage.glsl; with LAYOUT_WRITE, RasterParams params
+struct List {
+    uint index;
+    uint tile;
+    uint texel;  // Of the tile: row * kTileSize + column.
+};
+
+struct Tile {
+    uint index;
+};
+
+struct Range {
+    float enter;  // Times of the shutter.
+    float leave;
+    float depth;  // As the raster stage finds it: at the entry, or the nearest.
+    uint entry;   // Triangle, and kReversed.
+    float exit_depth;
+};
+
+// What of a list is asked for: ranges that hold the time t and are nearer than limit. Others may come too. With `all`, every range.
+struct Query {
+    float t;
+    float limit;
+    bool all;
+};
+
+#ifdef LAYOUT_WRITE
+// What one dispatch writes is a part of the band.
+uint part_first_tile() { return params.item_first - params.band_first; }
+#endif
+#include "layout_interface.glsl"
+
+List list_at(uint tile, uint texel) {
+    uint order = texel;
+#ifdef LAYOUT_MORTON
+    uvec2 at = uvec2(texel & 7u, texel >> 3u);
+    uvec2 spread = (at & 1u) | ((at & 2u) << 1u) | ((at & 4u) << 2u);
+    order = spread.x | (spread.y << 1u);
+#endif
+    return List(tile * kTileTexels + order, tile, texel);
+}
+
+Tile tile_of(List list) { return Tile(list.tile); }
+
+#include "layout.glsl"

@@ -1,0 +1,9 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: what a layout makes of each list, or tile, when it is filled; ranges have a depth at their exit.
+// Reads, writes: what the layout says
+// Grid:    one invocation per list, or tile
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#define GN_RANGE_EXIT
+#include "sbuffer/finish.glsl"

@@ -1,0 +1,8 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Purpose: what a layout makes of each list, or tile, before it is filled.
+// Reads, writes: what the layout says
+// Grid:    one invocation per list, or tile
+#extension GL_GOOGLE_include_directive : require
+#include "common/stage.glsl"
+#include "sbuffer/prepare.glsl"

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "layouts/interface.hpp"
+
+namespace gnomon {
+namespace {
+
+// Bindings of common/s_buffer.glsl, then these.
+constexpr uint32_t kSizesBinding = 20;
+constexpr uint32_t kBuffersBinding = 24;
+
+// "fetch_@(uint i)" with the name for @.
+std::string named(std::string text, const std::string& name) {
+    for (size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + name.size())) text.replace(at, 1, name);
+    return text;
+}
+
+std::string reads(uint32_t binding, const std::string& type, const std::string& name) {
+    std::string macro = "READ_";
+    for (const char c : type) macro += static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+    return macro + "(" + std::to_string(binding) + ", " + name + ")\n";
+}
+
+// The number of the first element that is bound: a part of a band writes through bindings of its own.
+std::string first_bound(const LayoutBuffer& buffer) {
+    const std::string times = buffer.elements == 1 ? "" : " * " + std::to_string(buffer.elements) + "u";
+    switch (buffer.per) {
+        case LayoutBuffer::Per::list: return "part_first_tile() * kTileTexels" + times;
+        case LayoutBuffer::Per::tile: return "part_first_tile()" + times;
+        case LayoutBuffer::Per::size: return "params.place_first[" + std::to_string(buffer.size) + "]" + times;
+        default: return "0u";
+    }
+}
+
+constexpr const char* kAtomics[] = {"Add", "Min", "Max", "And", "Or", "Exchange"};
+
+std::string atomic_name(const std::string& operation) {
+    std::string name = operation;
+    name[0] = static_cast<char>(name[0] - 'A' + 'a');
+    return name + "_@";
+}
+
+std::string write_accessors(const LayoutBuffer& buffer, uint32_t binding) {
+    const std::string place = "@_elements[i - " + first_bound(buffer) + "]", type = buffer.type;
+    std::string text = "layout(binding = " + std::to_string(binding) + ", scalar) buffer " + written_name(buffer) + " { " + type +
+                       " @_elements[]; };\n" + type + " fetch_@(uint i) { return " + place + "; }\n" + "void set_@(uint i, " + type +
+                       " value) { " + place + " = value; }\n";
+    if (type == "uint") {
+        for (const char* operation : kAtomics)
+            text += "uint " + atomic_name(operation) + "(uint i, uint value) { return atomic" + operation + "(" + place + ", value); }\n";
+    }
+    return text;
+}
+
+// In stages that do not write.
+std::string no_writes(const LayoutBuffer& buffer) {
+    std::string text = "#define set_@(i, value)\n";
+    if (buffer.type == "uint") {
+        for (const char* operation : kAtomics) text += "#define " + atomic_name(operation) + "(i, value) 0u\n";
+    }
+    return text;
+}
+
+std::string buffer_text(const LayoutBuffer& buffer, uint32_t binding) {
+    const std::string exists = buffer.exit_only ? " && defined(GN_RANGE_EXIT)" : "";
+    return named("#if defined(LAYOUT_WRITE)" + exists + "\n" + write_accessors(buffer, binding) + "#elif defined(LAYOUT_READ)" + exists +
+                     "\n" + reads(binding, buffer.type, "@") + no_writes(buffer) + "#else\n" + buffer.type +
+                     " fetch_@(uint i) { return " + buffer.type + "(0); }\n" + no_writes(buffer) + "#endif\n",
+                 buffer.name);
+}
+
+std::string size_text(const LayoutSize& size, size_t index, uint32_t binding) {
+    const bool of_tiles = size.per == LayoutSize::Per::tile;
+    const std::string of = of_tiles ? "Tile of" : "List of";
+    const std::string read = "#if defined(LAYOUT_WRITE) || defined(LAYOUT_READ)\n" + reads(binding, "uint", read_name(size));
+    const std::string nothing = "#else\n";
+    switch (size.as) {
+        case LayoutSize::As::values:
+            return named(read + "uint size_@(" + of + ") { return fetch_size_of_@(of.index); }\n" + nothing + "#define size_@(of) 0u\n#endif\n",
+                         size.name);
+        case LayoutSize::As::offsets:
+            return named(read + "uint first_@(" + of + ") { return fetch_offsets_of_@(of.index); }\n" + "uint end_@(" + of +
+                             ") { return fetch_offsets_of_@(of.index + 1u); }\n" + nothing +
+                             "#define first_@(of) 0u\n#define end_@(of) 0u\n#endif\n",
+                         size.name);
+        case LayoutSize::As::allocated: {
+            const std::string counter = "layout_counters[" + std::to_string(index) + "]";
+            return named("#ifdef LAYOUT_WRITE\nuint allocate_@(uint n) { return atomicAdd(" + counter +
+                             ", n); }\n#else\n#define allocate_@(n) 0u\n#endif\n",
+                         size.name);
+        }
+        default: return "";
+    }
+}
+
+// For sbuffer/size: each size that the layout computes, with its index.
+std::string size_lists(const Layout& layout) {
+    std::string lists, tiles;
+    for (size_t i = 1; i < layout.sizes.size(); ++i) {
+        const std::string entry = " VISIT(" + layout.sizes[i].name + ", " + std::to_string(i) + "u)";
+        (layout.sizes[i].per == LayoutSize::Per::tile ? tiles : lists) += entry;
+    }
+    return "#define LAYOUT_LIST_SIZES" + lists + "\n#define LAYOUT_TILE_SIZES" + tiles + "\n";
+}
+
+}  // namespace
+
+std::string written_name(const LayoutBuffer& buffer) { return "Written_" + buffer.name; }
+
+std::string read_name(const LayoutSize& size) {
+    return (size.as == LayoutSize::As::values ? "size_of_" : "offsets_of_") + size.name;
+}
+
+std::string layout_interface(const Layout& layout) {
+    std::string text = "// From layout.json.\n#define Iterator " + layout.iterator + "\n";
+    if (layout.keeps_counts()) text += "#define LAYOUT_COUNTS\n";
+    if (layout.prepare == Layout::Pass::tile) text += "#define LAYOUT_PREPARES_TILES\n";
+    if (layout.finish == Layout::Pass::tile) text += "#define LAYOUT_FINISHES_TILES\n";
+    if (layout.morton) text += "#define LAYOUT_MORTON\n";
+    for (const auto& [name, value] : layout.constants) text += "const uint " + name + " = " + std::to_string(value) + "u;\n";
+    if (layout.counts_up())
+        text += "#ifdef LAYOUT_WRITE\nlayout(binding = 17, scalar) buffer LayoutCounters { uint layout_counters[]; };\n#endif\n";
+    for (size_t i = 0; i < layout.sizes.size(); ++i)
+        text += size_text(layout.sizes[i], i, kSizesBinding + static_cast<uint32_t>(i));
+    for (size_t i = 0; i < layout.counters.size(); ++i) {
+        const std::string counter = "layout_counters[kMostSizes + " + std::to_string(i) + "u]";
+        text += named("#ifdef LAYOUT_WRITE\nvoid count_@(uint n) { atomicAdd(" + counter + ", n); }\n#else\n#define count_@(n)\n#endif\n",
+                      layout.counters[i]);
+    }
+    for (size_t i = 0; i < layout.buffers.size(); ++i)
+        text += buffer_text(layout.buffers[i], kBuffersBinding + static_cast<uint32_t>(i));
+    return text + size_lists(layout);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/s_buffer.hpp"
+
+#include <algorithm>
+#include <gnomon/error.hpp>
+
+#include "layouts/interface.hpp"
+#include "stages/scan.hpp"
+
+namespace gnomon {
+namespace {
+
+using gpu::Texel;
+using shared::kCountBlock;
+using shared::kTileTexels;
+
+// Places in memory are bound from a multiple of this on, which keeps every binding aligned whatever the size of its elements.
+constexpr uint64_t kPlaceAlign = 64;
+constexpr uint32_t kCounters = shared::kMostSizes + 1;
+
+uint64_t align_down(uint64_t value) { return value / kPlaceAlign * kPlaceAlign; }
+
+// Of a size: one for each list, or tile.
+uint64_t values_of_size(const LayoutSize& size, const Extent& of) {
+    return size.per == LayoutSize::Per::tile ? of.tiles : of.lists();
+}
+
+bool knows_each(const LayoutSize& size) { return size.as == LayoutSize::As::values || size.as == LayoutSize::As::offsets; }
+
+Extent difference(const Extent& end, const Extent& begin) {
+    Extent result{{}, end.tiles - begin.tiles};
+    for (size_t i = 0; i < result.sizes.size(); ++i) result.sizes[i] = end.sizes[i] - begin.sizes[i];
+    return result;
+}
+
+}  // namespace
+
+SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout)
+    : device_(device),
+      programs_(programs),
+      raster_(std::move(raster)),
+      layout_(layout),
+      unbound_(device, layout.buffers.size() + 1) {
+    item_count_ = raster_->item_count();
+    list_count_ = uint64_t(item_count_) * kTileTexels;
+    if (list_count_ + 1 > device.limits().most_elements(4)) {
+        throw Error(ErrorKind::out_of_memory,
+                    std::to_string(list_count_) + " lists in a light's view are more than the device can bind", "S-buffer",
+                    "use a smaller --shadow-res");
+    }
+    portions_ = raster_->portions();
+    if (portions_.empty()) portions_.push_back({0, item_count_});
+    for (const LayoutBuffer& buffer : layout_.buffers) {
+        if (layout_.has(buffer)) memory_.push_back({buffer, written_name(buffer), {}});
+    }
+    const Extent all{{}, item_count_};
+    for (size_t i = 0; i < layout_.sizes.size(); ++i) {
+        const LayoutSize& size = layout_.sizes[i];
+        if (!knows_each(size)) continue;
+        sizes_.push_back({i, read_name(size), device.allocate("s_buffer." + size.name, scan_bytes(values_of_size(size, all))), {}});
+    }
+    if (layout_.counts_up()) counters_ = device.allocate("s_buffer.counters", kCounters * 4);
+    count();
+}
+
+uint64_t SBuffer::elements(const LayoutBuffer& buffer, const Extent& of) const {
+    switch (buffer.per) {
+        case LayoutBuffer::Per::list: return of.lists() * buffer.elements;
+        case LayoutBuffer::Per::tile: return of.tiles * buffer.elements;
+        case LayoutBuffer::Per::size: return of.sizes[buffer.size] * buffer.elements;
+        default: break;
+    }
+    return buffer.length.value([&](const std::string& name) -> uint64_t {
+        if (name == "lists") return of.lists();
+        if (name == "tiles") return of.tiles;
+        for (size_t i = 0; i < layout_.sizes.size(); ++i) {
+            if (layout_.sizes[i].name == name) return of.sizes[i];
+        }
+        for (const auto& [constant, value] : layout_.constants) {
+            if (constant == name) return value;
+        }
+        throw Error(ErrorKind::internal, "a length of what there is not", name, "report this as a bug");
+    });
+}
+
+uint64_t SBuffer::bytes_of(const Extent& band) const {
+    uint64_t bytes = raster_->part_count() > 1 ? band.lists() * 4 : 0;
+    for (const Memory& m : memory_) bytes += std::max<uint64_t>(1, elements(m.description, band)) * m.description.element_bytes;
+    for (const Sizes& s : sizes_) bytes += scan_bytes(values_of_size(layout_.sizes[s.index], band));
+    return bytes;
+}
+
+// What is read is bound as a whole; what is not written in parts is so too.
+bool SBuffer::can_be_bound(const Extent& band) const {
+    const gpu::Limits& limits = device_.limits();
+    return std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
+        const uint64_t count = elements(m.description, band), bytes = m.description.element_bytes;
+        const bool whole = m.description.per == LayoutBuffer::Per::band;
+        return count <= limits.most_elements(bytes) && count < 0xffffffffull && (!whole || count <= limits.max_storage_range / bytes);
+    });
+}
+
+uint64_t SBuffer::map_bytes() const {
+    uint64_t bytes = bytes_of(counted().back()) + raster_->source_bytes();
+    for (const Sizes& s : sizes_) bytes += s.values.bytes();
+    return bytes;
+}
+
+uint64_t SBuffer::lost() const {
+    uint64_t lost = 0;
+    for (const auto& [item, counters] : lost_) lost += gpu::values_of<uint32_t>(device_, counters)[0];
+    return lost;
+}
+
+std::map<std::string, uint64_t> SBuffer::counts() const {
+    std::map<std::string, uint64_t> counts = raster_->counts();
+    counts["ranges"] = range_count();
+    counts["map_bytes"] = map_bytes();
+    if (!layout_.counters.empty()) counts["lost"] = lost();
+    return counts;
+}
+
+shared::RasterParams SBuffer::params(const Band& part) const {
+    shared::RasterParams params{.grid = raster_->grid(),
+                                .item_count = part.item_count,
+                                .item_first = part.item_first,
+                                .list_first = 0,
+                                .last = 1,
+                                .band_first = band_.item_first,
+                                .place_first = {},
+                                .entry_first = raster_->entry_first(),
+                                .fragment_item = raster_->fragment_item()};
+    const Extent bound = bound_before(part);
+    for (size_t i = 0; i < bound.sizes.size(); ++i) params.place_first[i] = static_cast<uint32_t>(bound.sizes[i]);
+    return params;
+}
+
+// What of the band lies before the first place that is bound for a part.
+Extent SBuffer::bound_before(const Band& part) const {
+    if (band_.item_count == 0) return {};
+    Extent before = extent_of(band_.item_first, part.item_first - band_.item_first);
+    for (uint64_t& size : before.sizes) size = align_down(size);
+    return before;
+}
+
+std::vector<gpu::Binding> SBuffer::write_bindings(const Band* part) const {
+    std::vector<gpu::Binding> all;
+    if (counters_) all.push_back({"LayoutCounters", &counters_});
+    for (const Sizes& s : sizes_)
+        all.push_back(part != nullptr ? gpu::Binding{s.read, &s.band, Texel::r32_uint}
+                                      : unbound_.at(memory_.size(), s.read, Texel::r32_uint));
+    for (size_t i = 0; i < memory_.size(); ++i) {
+        const Memory& m = memory_[i];
+        const LayoutBuffer& d = m.description;
+        if (part == nullptr) {
+            all.push_back(unbound_.at(i, m.written));
+            continue;
+        }
+        const bool whole = d.per == LayoutBuffer::Per::band;
+        const uint64_t first = whole ? 0 : elements(d, bound_before(*part));
+        const Band until{band_.item_first, part->item_first - band_.item_first + part->item_count};
+        const uint64_t end = elements(d, extent_of(whole ? band_ : until));
+        all.push_back({m.written, &m.buffer, {}, first * d.element_bytes, std::max<uint64_t>(1, end - first) * d.element_bytes});
+    }
+    return all;
+}
+
+void SBuffer::record_pass(bool fill, const Band& part, const gpu::Binding& list_state) {
+    gpu::Recorder& recorder = device_.recorder();
+    std::vector<gpu::Binding> all = raster_->bindings();
+    for (const gpu::Binding& binding : write_bindings(fill ? &part : nullptr)) all.push_back(binding);
+    if (raster_->keeps_list_state()) all.push_back(list_state);
+    all.push_back({"RasterCounts", &range_totals_});
+    shared::RasterParams params = this->params(part);
+    for (uint32_t i = 0; i < raster_->part_count(); ++i) {
+        params.list_first = i * shared::kListChunk;
+        params.last = i + 1 == raster_->part_count() ? 1 : 0;
+        recorder.dispatch(raster_->timing(fill), raster_->program(fill), all, params,
+                          groups_of(part.item_count, raster_->items_per_group()));
+    }
+}
+
+size_t SBuffer::portion_of(uint32_t item) const {
+    size_t i = portions_.size() - 1;
+    while (portions_[i].item_first > item) --i;
+    return i;
+}
+
+void SBuffer::make_source(uint32_t item) {
+    const size_t portion = portion_of(item);
+    if (portion == prepared_) return;
+    raster_->prepare(portions_[portion]);
+    prepared_ = portion;
+}
+
+void SBuffer::count() {
+    gpu::Recorder& recorder = device_.recorder();
+    const uint64_t blocks = groups_of(item_count_, kCountBlock);
+    range_totals_ = device_.allocate("raster_counts", blocks * sizeof(glm::uvec2));
+    recorder.fill(raster_->timing(false), range_totals_, 0);
+    for (const Sizes& s : sizes_) recorder.fill(raster_->timing(false), s.values, 0);
+    // The counts of lists are a size of their own, or serve to compute others.
+    const bool own = !sizes_.empty() && sizes_[0].index == 0;
+    const bool kept = layout_.keeps_counts();
+    const gpu::Buffer other = kept && !own ? device_.allocate("s_buffer.counts", scan_bytes(list_count_)) : gpu::Buffer();
+    const gpu::Buffer& counts = own ? sizes_[0].values : other;
+    if (other) recorder.fill(raster_->timing(false), other, 0);
+    // Lists are bound in parts that one binding can hold.
+    const uint64_t most_items = device_.limits().max_storage_range / (4 * kTileTexels) / kCountBlock * kCountBlock;
+    for (const Band& portion : portions_) {
+        make_source(portion.item_first);
+        for (uint64_t first = 0; first < portion.item_count; first += most_items) {
+            const auto items = static_cast<uint32_t>(std::min<uint64_t>(most_items, portion.item_count - first));
+            const Band part{static_cast<uint32_t>(portion.item_first + first), items};
+            const uint64_t offset = uint64_t(part.item_first) * kTileTexels * 4, bytes = uint64_t(items) * kTileTexels * 4;
+            record_pass(false, part,
+                        kept ? gpu::Binding{"ListState", &counts, {}, offset, bytes} : unbound_.at(memory_.size(), "ListState"));
+        }
+    }
+    totals_.push_back(recorder.download(range_totals_, 0, blocks * sizeof(glm::uvec2)));
+    if (layout_.sizes.size() > 1) record_sizes(counts, most_items);
+}
+
+// The sizes that the layout computes.
+void SBuffer::record_sizes(const gpu::Buffer& counts, uint64_t most_items) {
+    gpu::Recorder& recorder = device_.recorder();
+    const uint64_t blocks = groups_of(item_count_, kCountBlock);
+    for (size_t i = 1; i < layout_.sizes.size(); ++i) {
+        const LayoutSize& size = layout_.sizes[i];
+        const bool tiles = size.per == LayoutSize::Per::tile;
+        const auto known = std::find_if(sizes_.begin(), sizes_.end(), [&](const Sizes& s) { return s.index == i; });
+        const Extent all{{}, item_count_};
+        const gpu::Buffer unkept =
+            known == sizes_.end() ? device_.allocate("s_buffer." + size.name, values_of_size(size, all) * 4) : gpu::Buffer();
+        const gpu::Buffer totals = device_.allocate("size_totals", blocks * sizeof(glm::uvec2));
+        recorder.fill("sbuffer/size", totals, 0);
+        for (uint64_t first = 0; first < item_count_; first += most_items) {
+            const uint64_t items = std::min<uint64_t>(most_items, item_count_ - first), lists = items * kTileTexels;
+            const uint64_t each = tiles ? 4 : 4 * kTileTexels;
+            recorder.dispatch("sbuffer/size", programs_.get(layout_.stage("sbuffer/size"), {static_cast<uint32_t>(i), tiles}),
+                              bindings({{"counts", &counts, Texel::r32_uint},
+                                        {"Sizes", known == sizes_.end() ? &unkept : &known->values, {}, first * each, items * each},
+                                        {"SizeTotals", &totals}}),
+                              shared::SizeParams{static_cast<uint32_t>(first * kTileTexels), static_cast<uint32_t>(lists)},
+                              groups_of(tiles ? items : lists, 64));
+        }
+        totals_.push_back(recorder.download(totals, 0, blocks * sizeof(glm::uvec2)));
+    }
+}
+
+const SBuffer::Counted& SBuffer::counted() const {
+    if (counted_) return *counted_;
+    const uint64_t blocks = groups_of(item_count_, kCountBlock);
+    Counted counted(blocks + 1);
+    for (size_t i = 0; i < totals_.size(); ++i) {
+        const std::vector<glm::uvec2> totals = gpu::values_of<glm::uvec2>(device_, totals_[i]);
+        for (size_t block = 0; block < blocks; ++block)
+            counted[block + 1].sizes[i] = counted[block].sizes[i] + (uint64_t(totals[block].y) << 32 | totals[block].x);
+    }
+    for (size_t block = 1; block <= blocks; ++block)
+        counted[block].tiles = std::min<uint64_t>(item_count_, block * kCountBlock);
+    if (counted.back().sizes[0] >= 0xffffffffull) {
+        throw Error(ErrorKind::out_of_memory, std::to_string(counted.back().sizes[0]) + " ranges in a light's view", "S-buffer",
+                    "use a smaller --shadow-res");
+    }
+    counted_ = std::move(counted);
+    return *counted_;
+}
+
+// Of whole blocks, but for the last.
+Extent SBuffer::extent_of(uint32_t item_first, uint32_t item_count) const {
+    const Counted& counted = this->counted();
+    return difference(counted[groups_of(item_first + uint64_t(item_count), kCountBlock)], counted[item_first / kCountBlock]);
+}
+
+std::vector<Band> SBuffer::bands(uint64_t bytes) const {
+    const Counted& counted = this->counted();
+    const auto fits = [&](const Extent& band) { return bytes_of(band) <= bytes && can_be_bound(band); };
+    const auto too_large = [&](const std::string& what, const Extent& extent) {
+        return BandTooLarge(what, "S-buffer", bytes_of(extent), bytes, "a larger --shadow-res");
+    };
+    if (fits(counted.back())) return {{0, item_count_, 0, range_count()}};
+    if (!layout_.bands) throw too_large("the ranges of a light's view, whose layout '" + layout_.name + "' has no bands,", counted.back());
+    std::vector<Band> result;
+    uint64_t needed = 0;
+    Extent largest;
+    for (size_t first = 0, end = 0; first + 1 < counted.size(); first = end) {
+        ++end;
+        const Extent block = difference(counted[end], counted[first]);
+        if (!fits(block) && bytes_of(block) > needed) {
+            needed = bytes_of(block);
+            largest = block;
+        }
+        while (end + 1 < counted.size() && fits(difference(counted[end + 1], counted[first]))) ++end;
+        const Extent held = difference(counted[end], counted[first]);
+        result.push_back({static_cast<uint32_t>(counted[first].tiles), static_cast<uint32_t>(held.tiles), counted[first].sizes[0], held.sizes[0]});
+    }
+    if (needed > 0) throw too_large("the ranges of one block of tiles", largest);
+    return result;
+}
+
+std::vector<Band> SBuffer::parts() const {
+    const uint64_t most = device_.limits().max_storage_range;
+    const auto fits = [&](const Extent& part) {
+        return part.lists() * 4 <= most && std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
+                   const LayoutBuffer& d = m.description;
+                   return d.per == LayoutBuffer::Per::band || (elements(d, part) + kPlaceAlign * d.elements) * d.element_bytes <= most;
+               });
+    };
+    std::vector<Band> result;
+    const uint32_t end = band_.item_first + band_.item_count;
+    for (uint32_t item = band_.item_first; item < end; item += kCountBlock) {
+        const uint32_t items = std::min(kCountBlock, end - item);
+        if (!fits(extent_of(item, items))) {
+            throw Error(ErrorKind::out_of_memory,
+                        std::to_string(extent_of(item, items).sizes[0]) + " ranges in one block of tiles are more than the device can bind",
+                        "S-buffer", "use a larger --shadow-res");
+        }
+        const bool begins = result.empty() || portion_of(result.back().item_first) != portion_of(item) ||
+                            !fits(extent_of(result.back().item_first, item + items - result.back().item_first));
+        if (begins) result.push_back({item, 0});
+        result.back().item_count += items;
+    }
+    return result;
+}
+
+// What of each size is read while the band is in memory.
+void SBuffer::hold_sizes() {
+    gpu::Recorder& recorder = device_.recorder();
+    const Extent held = extent_of(band_);
+    for (Sizes& s : sizes_) {
+        const LayoutSize& size = layout_.sizes[s.index];
+        const uint64_t count = values_of_size(size, held), first = values_of_size(size, {{}, band_.item_first});
+        if (s.band.bytes() < scan_bytes(count)) {
+            s.band = gpu::Buffer();
+            s.band = device_.allocate("s_buffer." + s.read, scan_bytes(count));
+        }
+        if (size.as == LayoutSize::As::values) {
+            recorder.copy("scan", s.values, first * 4, s.band, 0, count * 4);
+        } else if (band_.item_count == item_count_) {
+            record_scan(device_, programs_, s.values, static_cast<uint32_t>(count), s.band);
+        } else {
+            const gpu::Buffer own = device_.allocate("s_buffer.scanned", scan_bytes(count));
+            recorder.fill("scan", own, 0);
+            recorder.copy("scan", s.values, first * 4, own, 0, count * 4);
+            record_scan(device_, programs_, own, static_cast<uint32_t>(count), s.band);
+        }
+    }
+}
+
+void SBuffer::hold_buffers(const Extent& held) {
+    // Kept for smaller bands: what it takes at most is then known when all were filled once.
+    const auto hold = [&](gpu::Buffer& buffer, const std::string& name, uint64_t bytes) {
+        if (buffer.bytes() >= bytes) return;
+        buffer = gpu::Buffer();
+        buffer = device_.allocate("s_buffer." + name, bytes);
+    };
+    for (Memory& m : memory_)
+        hold(m.buffer, m.description.name, std::max<uint64_t>(1, elements(m.description, held)) * m.description.element_bytes);
+    if (raster_->part_count() > 1) hold(cursors_, "cursors", held.lists() * 4);
+    for (const Memory& m : memory_) {
+        if (m.description.initial) device_.recorder().fill("sbuffer/clear", m.buffer, *m.description.initial);
+    }
+    if (counters_) device_.recorder().fill("sbuffer/clear", counters_, 0);
+}
+
+// Places of a part lie behind those of the parts before.
+void SBuffer::begin_counters(const Band& part) {
+    const Extent before = extent_of(band_.item_first, part.item_first - band_.item_first);
+    for (size_t i = 0; i < layout_.sizes.size(); ++i) {
+        if (layout_.sizes[i].as == LayoutSize::As::allocated)
+            device_.recorder().fill("sbuffer/clear", counters_, static_cast<uint32_t>(before.sizes[i]), i * 4, 4);
+    }
+}
+
+void SBuffer::record_lists(const std::string& stage, Layout::Pass pass, const std::vector<Band>& parts) {
+    if (pass == Layout::Pass::none) return;
+    const gpu::Program& program = programs_.get(layout_.stage(stage + (layout_.exit_depth ? "_exits" : "")));
+    for (const Band& part : parts) {
+        const uint64_t invocations = uint64_t(part.item_count) * (pass == Layout::Pass::tile ? 1 : kTileTexels);
+        device_.recorder().dispatch(stage, program, write_bindings(&part), params(part), groups_of(invocations, 64));
+    }
+}
+
+void SBuffer::fill(const Band& band) {
+    band_ = band;
+    hold_sizes();
+    hold_buffers(extent_of(band));
+    const std::vector<Band> parts = this->parts();
+    record_lists("sbuffer/prepare", layout_.prepare, parts);
+    for (const Band& part : parts) {
+        make_source(part.item_first);
+        begin_counters(part);
+        const uint64_t first = uint64_t(part.item_first - band.item_first) * kTileTexels * 4, bytes = uint64_t(part.item_count) * kTileTexels * 4;
+        record_pass(true, part, cursors_ ? gpu::Binding{"ListState", &cursors_, {}, first, bytes} : unbound_.at(memory_.size(), "ListState"));
+    }
+    record_lists("sbuffer/finish", layout_.finish, parts);
+    if (!layout_.counters.empty()) lost_[band.item_first] = device_.recorder().download(counters_, shared::kMostSizes * 4, 4);
+}
+
+std::vector<gpu::Binding> SBuffer::read_bindings() const {
+    std::vector<gpu::Binding> result;
+    const Extent held = extent_of(band_);
+    for (const Sizes& s : sizes_) result.push_back({s.read, &s.band, Texel::r32_uint});
+    for (const Memory& m : memory_) {
+        const LayoutBuffer& d = m.description;
+        result.push_back({d.name, &m.buffer, d.format, 0, std::max<uint64_t>(1, elements(d, held)) * d.element_bytes});
+    }
+    return result;
+}
+
+}  // namespace gnomon
