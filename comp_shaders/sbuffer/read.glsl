@@ -25,6 +25,9 @@ void main() {
     bool more = inside && layout_more(it);
     while (more) {
         Range range = layout_next(it, query);
+#ifndef GN_RANGE_EXIT
+        range.exit_depth = range.depth;
+#endif
         if (kCopy) found[place] = ListRange(range.enter, range.leave, range.depth, range.exit_depth, range.entry);
         ++place;
         ++walked;

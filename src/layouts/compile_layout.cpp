@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // glslang itself has no limits.
-constexpr size_t kMostNested = 32;
+constexpr size_t kMostNested = 40;
 constexpr size_t kMostIncludes = 1000;
 constexpr size_t kMostSourceBytes = size_t{4} << 20;
 constexpr size_t kMostWords = size_t{1} << 18;  // Of SPIR-V, ten times the longest stage of ours.

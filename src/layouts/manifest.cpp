@@ -294,10 +294,12 @@ Layout parse_layout(std::string_view text, const std::string& where) {
     layout.prepare = members.one_of("prepare", kPasses, "none");
     layout.finish = members.one_of("finish", kPasses, "none");
     parse_names(members, layout);
-    members.each("sizes", [&](Members& size) { parse_size(size, layout); });
+    members.find("sizes");
     if (members.find("buffers") == nullptr) members.fail("buffers", "is missing");
-    members.each("buffers", [&](Members& buffer) { parse_buffer(buffer, layout); });
+    // First: what is misspelt may be what others are missing.
     members.check_known();
+    members.each("sizes", [&](Members& size) { parse_size(size, layout); });
+    members.each("buffers", [&](Members& buffer) { parse_buffer(buffer, layout); });
     return layout;
 }
 

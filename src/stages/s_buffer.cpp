@@ -57,7 +57,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     for (size_t i = 0; i < layout_.sizes.size(); ++i) {
         const LayoutSize& size = layout_.sizes[i];
         if (!knows_each(size)) continue;
-        sizes_.push_back({i, read_name(size), device.allocate("s_buffer." + size.name, scan_bytes(values_of_size(size, all))), {}});
+        sizes_.push_back({i, read_name(size), device.allocate("s_buffer.each_of_" + size.name, scan_bytes(values_of_size(size, all))), {}});
     }
     if (layout_.counts_up()) counters_ = device.allocate("s_buffer.counters", kCounters * 4);
     count();
@@ -84,9 +84,21 @@ uint64_t SBuffer::elements(const LayoutBuffer& buffer, const Extent& of) const {
 }
 
 uint64_t SBuffer::bytes_of(const Extent& band) const {
-    uint64_t bytes = raster_->part_count() > 1 ? band.lists() * 4 : 0;
+    uint64_t bytes = 0;
     for (const Memory& m : memory_) bytes += std::max<uint64_t>(1, elements(m.description, band)) * m.description.element_bytes;
     for (const Sizes& s : sizes_) bytes += scan_bytes(values_of_size(layout_.sizes[s.index], band));
+    return bytes;
+}
+
+// Besides, while it is filled.
+uint64_t SBuffer::work_bytes_of(const Extent& band) const {
+    uint64_t bytes = raster_->part_count() > 1 ? band.lists() * 4 : 0;
+    for (const Sizes& s : sizes_) {
+        const LayoutSize& size = layout_.sizes[s.index];
+        const uint64_t count = values_of_size(size, band);
+        if (size.as == LayoutSize::As::offsets) bytes += scan_work_bytes(count);
+        if (size.per == LayoutSize::Per::tile) bytes += scan_bytes(count);
+    }
     return bytes;
 }
 
@@ -231,7 +243,7 @@ void SBuffer::record_sizes(const gpu::Buffer& counts, uint64_t most_items) {
         const auto known = std::find_if(sizes_.begin(), sizes_.end(), [&](const Sizes& s) { return s.index == i; });
         const Extent all{{}, item_count_};
         const gpu::Buffer unkept =
-            known == sizes_.end() ? device_.allocate("s_buffer." + size.name, values_of_size(size, all) * 4) : gpu::Buffer();
+            known == sizes_.end() ? device_.allocate("s_buffer.each_of_" + size.name, values_of_size(size, all) * 4) : gpu::Buffer();
         const gpu::Buffer totals = device_.allocate("size_totals", blocks * sizeof(glm::uvec2));
         recorder.fill("sbuffer/size", totals, 0);
         for (uint64_t first = 0; first < item_count_; first += most_items) {
@@ -275,9 +287,9 @@ Extent SBuffer::extent_of(uint32_t item_first, uint32_t item_count) const {
 
 std::vector<Band> SBuffer::bands(uint64_t bytes) const {
     const Counted& counted = this->counted();
-    const auto fits = [&](const Extent& band) { return bytes_of(band) <= bytes && can_be_bound(band); };
+    const auto fits = [&](const Extent& band) { return bytes_of(band) + work_bytes_of(band) <= bytes && can_be_bound(band); };
     const auto too_large = [&](const std::string& what, const Extent& extent) {
-        return BandTooLarge(what, "S-buffer", bytes_of(extent), bytes, "a larger --shadow-res");
+        return BandTooLarge(what, "S-buffer", bytes_of(extent) + work_bytes_of(extent), bytes, "a larger --shadow-res");
     };
     if (fits(counted.back())) return {{0, item_count_, 0, range_count()}};
     if (!layout_.bands) throw too_large("the ranges of a light's view, whose layout '" + layout_.name + "' has no bands,", counted.back());
@@ -324,21 +336,34 @@ std::vector<Band> SBuffer::parts() const {
     return result;
 }
 
+// Memory for a band. Kept for later ones that need no more of anything: what it takes at most is then known when all were filled
+// once.
+void SBuffer::hold(const Extent& held) {
+    struct Need {
+        gpu::Buffer* buffer;
+        std::string name;
+        uint64_t bytes;
+    };
+    std::vector<Need> needs;
+    for (Sizes& s : sizes_) needs.push_back({&s.band, s.read, scan_bytes(values_of_size(layout_.sizes[s.index], held))});
+    for (Memory& m : memory_)
+        needs.push_back({&m.buffer, m.description.name, std::max<uint64_t>(1, elements(m.description, held)) * m.description.element_bytes});
+    if (raster_->part_count() > 1) needs.push_back({&cursors_, "cursors", held.lists() * 4});
+    if (std::all_of(needs.begin(), needs.end(), [](const Need& need) { return need.buffer->bytes() >= need.bytes; })) return;
+    for (const Need& need : needs) *need.buffer = gpu::Buffer();
+    for (const Need& need : needs) *need.buffer = device_.allocate("s_buffer." + need.name, need.bytes);
+}
+
 // What of each size is read while the band is in memory.
-void SBuffer::hold_sizes() {
+void SBuffer::record_sums(const Extent& held) {
     gpu::Recorder& recorder = device_.recorder();
-    const Extent held = extent_of(band_);
-    for (Sizes& s : sizes_) {
+    for (const Sizes& s : sizes_) {
         const LayoutSize& size = layout_.sizes[s.index];
         const uint64_t count = values_of_size(size, held), first = values_of_size(size, {{}, band_.item_first});
-        if (s.band.bytes() < scan_bytes(count)) {
-            s.band = gpu::Buffer();
-            s.band = device_.allocate("s_buffer." + s.read, scan_bytes(count));
-        }
         if (size.as == LayoutSize::As::values) {
             recorder.copy("scan", s.values, first * 4, s.band, 0, count * 4);
-        } else if (band_.item_count == item_count_) {
-            record_scan(device_, programs_, s.values, static_cast<uint32_t>(count), s.band);
+        } else if (size.per == LayoutSize::Per::list || band_.item_count == item_count_) {
+            record_scan(device_, programs_, s.values, static_cast<uint32_t>(count), s.band, first);
         } else {
             const gpu::Buffer own = device_.allocate("s_buffer.scanned", scan_bytes(count));
             recorder.fill("scan", own, 0);
@@ -346,22 +371,6 @@ void SBuffer::hold_sizes() {
             record_scan(device_, programs_, own, static_cast<uint32_t>(count), s.band);
         }
     }
-}
-
-void SBuffer::hold_buffers(const Extent& held) {
-    // Kept for smaller bands: what it takes at most is then known when all were filled once.
-    const auto hold = [&](gpu::Buffer& buffer, const std::string& name, uint64_t bytes) {
-        if (buffer.bytes() >= bytes) return;
-        buffer = gpu::Buffer();
-        buffer = device_.allocate("s_buffer." + name, bytes);
-    };
-    for (Memory& m : memory_)
-        hold(m.buffer, m.description.name, std::max<uint64_t>(1, elements(m.description, held)) * m.description.element_bytes);
-    if (raster_->part_count() > 1) hold(cursors_, "cursors", held.lists() * 4);
-    for (const Memory& m : memory_) {
-        if (m.description.initial) device_.recorder().fill("sbuffer/clear", m.buffer, *m.description.initial);
-    }
-    if (counters_) device_.recorder().fill("sbuffer/clear", counters_, 0);
 }
 
 // Places of a part lie behind those of the parts before.
@@ -384,8 +393,13 @@ void SBuffer::record_lists(const std::string& stage, Layout::Pass pass, const st
 
 void SBuffer::fill(const Band& band) {
     band_ = band;
-    hold_sizes();
-    hold_buffers(extent_of(band));
+    const Extent held = extent_of(band);
+    hold(held);
+    record_sums(held);
+    for (const Memory& m : memory_) {
+        if (m.description.initial) device_.recorder().fill("sbuffer/clear", m.buffer, *m.description.initial);
+    }
+    if (counters_) device_.recorder().fill("sbuffer/clear", counters_, 0);
     const std::vector<Band> parts = this->parts();
     record_lists("sbuffer/prepare", layout_.prepare, parts);
     for (const Band& part : parts) {

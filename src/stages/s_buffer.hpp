@@ -67,8 +67,8 @@ private:
 
     void count();
     void record_sizes(const gpu::Buffer& counts, uint64_t most_items);
-    void hold_sizes();
-    void hold_buffers(const Extent& held);
+    void hold(const Extent& held);
+    void record_sums(const Extent& held);
     void record_pass(bool fill, const Band& part, const gpu::Binding& list_state);
     void record_lists(const std::string& stage, Layout::Pass pass, const std::vector<Band>& parts);
     void begin_counters(const Band& part);
@@ -81,6 +81,7 @@ private:
     Extent bound_before(const Band& part) const;
     uint64_t elements(const LayoutBuffer& buffer, const Extent& of) const;
     uint64_t bytes_of(const Extent& band) const;
+    uint64_t work_bytes_of(const Extent& band) const;
     bool can_be_bound(const Extent& band) const;
 
     gpu::Device& device_;

@@ -212,13 +212,13 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     std::vector<gpu::Binding> all = hit_bindings(light);
     all.insert(all.end(), {lit_plane(plane),
                            {"ShadowCounts", &shadow_counts_},
-                           {"Iterators", &iterators_},
                            {"asked", light.asked ? &asked_ : &nothing_, Texel::rgba32_float},
                            {"asked_nodes", light.asked ? &asked_nodes_ : &nothing_, Texel::rg32_uint},
                            {"leaves", light.asked ? &light.asked->leaves() : &nothing_, Texel::r32_uint}});
     if (settings_.shells)
         for (const gpu::Binding& b : shell_bindings()) all.push_back(b);
     for (const gpu::Binding& b : light.map->read_bindings()) all.push_back(b);
+    if (light.map->s_buffer() != nullptr) all.push_back({"Iterators", &iterators_});
     // The first pass over the queue for a plane writes every hit's word, later ones clear bits in it.
     const Window& window = light.bins.window;
     const bool whole =

@@ -172,10 +172,22 @@ void make_documents(const fs::path& folder) {
         {"summary", "one line"},
         {"source", "a paper"},
         {"lossless", true},
+        {"bands", false},
+        {"texels", "morton"},
+        {"iterator", "uvec4"},
+        {"constants", {{"PAGE", 4}}},
+        {"counters", {"lost"}},
+        {"prepare", "tile"},
+        {"finish", "list"},
+        {"sizes",
+         {{{"name", "ranges"}, {"as", "offsets"}},
+          {{"name", "pages"}, {"as", "allocated"}},
+          {{"name", "longest"}, {"per", "tile"}, {"as", "values"}}}},
         {"buffers",
-         {{{"block", "Offsets"}, {"texel", "offsets"}, {"format", "r32_uint"}, {"per", "list"}, {"scan", true}},
-          {{"block", "Cursors"}, {"per", "list"}, {"copy_of", "Offsets"}, {"clear", "range_first"}},
-          {{"block", "Exits"}, {"format", "rgba32_float"}, {"per", "range"}, {"when", "exit"}, {"clear", 7}}}}};
+         {{{"name", "heads"}, {"type", "uint"}, {"per", "list"}, {"initial", "none"}},
+          {{"name", "pages"}, {"type", "vec4"}, {"per", "pages"}, {"elements", "PAGE"}},
+          {{"name", "table"}, {"type", "uvec2"}, {"length", "max(2 * ranges, lists / (PAGE - 1)) + min(tiles, 7)"}},
+          {{"name", "exits"}, {"type", "float"}, {"per", "ranges"}, {"when", "exit"}, {"initial", 7}}}}};
     put(folder / "layout" / "layout.json", layout.dump());
     put_dictionary(folder / "layout.dict", {layout});
     put_dictionary(folder / "render_json.dict", {json::parse(io::to_text(render))});

@@ -117,18 +117,18 @@ TEST_F(ExternalLayoutTest, MayBeInSeveralFiles) {
 TEST_F(ExternalLayoutTest, NamesFileAndLineOfASyntaxError) {
     copy_layout("linked");
     put_content(folder / "layout.glsl", "\n\n#ifdef LAYOUT_READ\nuint x = ;\n#endif\n" + content_of(folder / "layout.glsl"));
-    expect_input_error({"layout does not compile", "syntax error", path("layout.glsl:4"), "CONTRIBUTING.md"});
+    expect_input_error({"layout does not compile", "syntax error", path("layout.glsl:4"), "docs/layouts.md"});
 }
 
 TEST_F(ExternalLayoutTest, NamesAMissingFunction) {
-    for (const std::string name : {"layout_count", "layout_cursor", "layout_begin", "layout_more", "layout_next"}) {
+    for (const std::string name : {"layout_open", "layout_emit", "layout_close", "layout_begin", "layout_more", "layout_next"}) {
         copy_layout("array");
         edit("layout.glsl", " " + name + "(", " other(");
-        expect_input_error({"layout does not compile", "'" + name + "'", path("layout.glsl"), "CONTRIBUTING.md, A new layout"});
+        expect_input_error({"layout does not compile", "'" + name + "'", path("layout.glsl"), "docs/layouts.md"});
     }
     // Declared only.
     copy_layout("array");
-    edit("layout.glsl", "bool layout_more(ListIterator it) { return it.x < it.y; }", "bool layout_more(ListIterator it);");
+    edit("layout.glsl", "bool layout_more(Iterator it) { return it.x < it.y; }", "bool layout_more(Iterator it);");
     expect_input_error({"layout does not compile", "layout_more", path("layout.glsl")});
 }
 
@@ -154,32 +154,42 @@ TEST_F(ExternalLayoutTest, NamesWhatIsWrongInTheManifest) {
     edit("layout.json", "\"buffers\"", "\"Buffers\"");
     expect_input_error({"'buffers' is missing", path("layout.json:1")});
     copy_layout("array");
-    edit("layout.json", "rgba32_float", "rgb8");
-    expect_input_error({"'buffers/2/format' is 'rgb8'", path("layout.json:9")});
+    edit("layout.json", "vec4", "vec3");
+    expect_input_error({"'buffers/0/type' is 'vec3'", "float, uint, uvec2", path("layout.json:6")});
 }
 
 TEST_F(ExternalLayoutTest, SaysWhichMemberOfTheManifestCannotBe) {
+    const std::string initial = "is not an integer from 0 to 4294967295", of_float = "is not a number that a 32-bit float";
     const struct {
-        const char *from, *to, *what, *place;
+        const char *from, *to;
+        std::string what, place;
     } cases[] = {
-        {"\"scan\": true", "\"scann\": true", "'buffers/0/scann' is not known", "layout.json:7"},
-        {"\"lossless\": true", "\"lossles\": true", "'lossles' is not known", "layout.json:5"},
-        {"\"lossless\": true", "\"lossless\": 1", "'lossless' is neither true nor false", "layout.json:5"},
-        {"\"per\": \"list\", \"scan\"", "\"scan\"", "'buffers/0/per' is missing", "layout.json:7"},
-        {"\"block\": \"RangeExits\"", "\"block\": \"Ranges\"", "buffer 'Ranges' is named twice", "layout.json:10"},
-        {"\"copy_of\": \"ListOffsets\"", "\"copy_of\": \"ListCursors\"", "is a copy of itself", "layout.json:8"},
-        {"\"copy_of\": \"ListOffsets\"", "\"copy_of\": \"Offsets\"", "copy of 'Offsets', which there is not", "layout.json:8"},
-        {"\"copy_of\": \"ListOffsets\"", "\"copy_of\": \"Ranges\"", "which has other 'per', 'format'", "layout.json:8"},
-        {"\"scan\": true", "\"scan\": true, \"format\": \"rg32_uint\"", "format", "layout.json:7"},
-        {"\"per\": \"range\" }", "\"per\": \"range\", \"clear\": true }", "is not a number that a 32-bit float",
-         "layout.json:9"},
-        {"\"per\": \"range\" }", "\"per\": \"range\", \"clear\": 1e39 }", "is not a number that a 32-bit float",
-         "layout.json:9"},
-        {"\"scan\": true", "\"clear\": -1", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
-        {"\"scan\": true", "\"clear\": 0.5", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
-        {"\"scan\": true", "\"clear\": true", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
-        {"\"scan\": true", "\"clear\": 1e30", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
-        {"\"scan\": true", "\"clear\": 4294967296", "'buffers/0/clear' is neither 'range_first' nor", "layout.json:7"},
+        {"\"sizes\"", "\"size\"", "'size' is not known", "layout.json:4"},
+        {"\"sizes\"", "\"lossless\": 1, \"sizes\"", "'lossless' is neither true nor false", "layout.json:4"},
+        {"\"as\": \"offsets\"", "\"as\": \"offset\"", "'sizes/0/as' is 'offset'", "layout.json:4"},
+        {"\"as\": \"offsets\"", "\"As\": \"offsets\"", "'sizes/0/as' is missing", "layout.json:4"},
+        {"\"as\": \"offsets\"", "\"as\": \"values\"", "'buffers/0/per' is 'ranges', which have no places", "layout.json:6"},
+        {"\"as\": \"offsets\"", "\"per\": \"tile\", \"as\": \"offsets\"", "'sizes/0/per' of the ranges is not 'list'", "layout.json:4"},
+        {"{ \"name\": \"ranges\", \"as\": \"offsets\" }",
+         R"({ "name": "ranges", "as": "offsets" }, { "name": "ranges", "as": "total" })", "'sizes/1/name' is 'ranges', as another's", "layout.json:4"},
+        {"\"name\": \"exits\"", "\"name\": \"ranges\"", "'buffers/1/name' is 'ranges', as another's", "layout.json:7"},
+        {"\"name\": \"exits\"", "\"name\": \"2x\"", "'buffers/1/name' is not a name", "layout.json:7"},
+        {"\"name\": \"exits\"", "\"name\": \"a;b\"", "'buffers/1/name' is not a name", "layout.json:7"},
+        {"\"per\": \"ranges\", \"when\"", "\"when\"", "has both 'per' and 'length', or neither", "layout.json:7"},
+        {"\"per\": \"ranges\", \"when\"", "\"per\": \"pages\", \"when\"", "'buffers/1/per' is 'pages'", "layout.json:7"},
+        {"\"per\": \"ranges\", \"when\"", "\"length\": \"2 * pages\", \"when\"", "'buffers/1/length' names 'pages', which there is not", "layout.json:7"},
+        {"\"per\": \"ranges\", \"when\"", "\"length\": \"2 * (ranges\", \"when\"", "'buffers/1/length' is not an expression: the end at character 12", "layout.json:7"},
+        {"\"when\"", "\"elements\": 0, \"when\"", "'buffers/1/elements' is not from 1", "layout.json:7"},
+        {"\"when\"", "\"initial\": true, \"when\"", of_float, "layout.json:7"},
+        {"\"when\"", "\"initial\": 1e39, \"when\"", of_float, "layout.json:7"},
+        {"\"when\"", "\"initial\": \"none\", \"when\"", of_float, "layout.json:7"},
+        {"\"float\"", "\"uint\", \"initial\": -1", initial, "layout.json:7"},
+        {"\"float\"", "\"uint\", \"initial\": 0.5", initial, "layout.json:7"},
+        {"\"float\"", "\"uint\", \"initial\": 4294967296", initial, "layout.json:7"},
+        {"\"sizes\"", "\"constants\": { \"K\": -1 }, \"sizes\"", "'constants/K' is not an integer", "layout.json:4"},
+        {"\"sizes\"", "\"counters\": [\"found\"], \"sizes\"", "'counters' holds what is not 'lost'", "layout.json:4"},
+        {"\"sizes\"", "\"finish\": \"texel\", \"sizes\"", "'finish' is 'texel'", "layout.json:4"},
+        {"\"sizes\"", "\"iterator\": \"vec2\", \"sizes\"", "'iterator' is 'vec2'", "layout.json:4"},
     };
     for (const auto& c : cases) {
         SCOPED_TRACE(c.to);
@@ -187,9 +197,22 @@ TEST_F(ExternalLayoutTest, SaysWhichMemberOfTheManifestCannotBe) {
         edit("layout.json", c.from, c.to);
         expect_input_error({c.what, path(c.place)});
     }
-    copy_layout("linked");
-    edit("layout.glsl", "uint node_count;", "uint node_count, more;");
-    expect_input_error({"block 'NodeCount' holds 8 bytes", path("layout.json:11")});
+}
+
+TEST_F(ExternalLayoutTest, BindsOnlyWhatItsManifestNames) {
+    copy_layout("array");
+    edit("layout.json", "\"name\": \"ranges\", \"type\"", "\"name\": \"stays\", \"type\"");
+    expect_input_error({"layout does not compile", "set_ranges", path("layout.glsl:")});
+    copy_layout("array");
+    edit("layout.json", "\"vec4\"", "\"uvec4\"");
+    expect_input_error({"layout does not compile", "set_ranges", path("layout.glsl:")});
+    const std::string own = "layout(binding = 39, scalar) buffer Own { uint own[]; };\n";
+    copy_layout("array");
+    put_content(folder / "layout.glsl", own + content_of(folder / "layout.glsl"));
+    expect_input_error({"declares 'Own'", path("layout.glsl")});
+    copy_layout("array");
+    put_content(folder / "layout.glsl", replaced(own, "binding", "set = 1, binding") + content_of(folder / "layout.glsl"));
+    expect_input_error({"not what a layout may declare", path("layout.glsl")});
 }
 
 // What the driver could not take, or the compiler: an error, and not a crash.
@@ -198,12 +221,10 @@ TEST_F(ExternalLayoutTest, HostileCode) {
         copy_layout("array");
         put_content(folder / "layout.glsl", text + content_of(folder / "layout.glsl"));
     };
-    const std::string read = "#ifdef LAYOUT_READ\n", end = "\n#endif\n";
     const auto in_more = [&](const std::string& statement) {
         edit("layout.glsl", "{ return it.x < it.y; }", "{ " + statement + " return it.x < it.y; }");
     };
-    before("#extension GL_EXT_buffer_reference_uvec2 : require\n" + read +
-           "layout(buffer_reference, scalar) buffer Wild { uint word; };\n" + end);
+    before("#extension GL_EXT_buffer_reference_uvec2 : require\nlayout(buffer_reference, scalar) buffer Wild { uint word; };\n");
     in_more("if (Wild(uvec2(it.x, 0u)).word == 7u) return true;");
     expect_input_error({"SPIR-V capability", "PhysicalStorageBufferAddresses", path("layout.glsl")});
 
@@ -262,21 +283,6 @@ TEST_F(ExternalLayoutTest, LinksStayInTheFolder) {
     put_content(folder / "inside", "");
     std::filesystem::create_symlink("inside", folder / "link");
     expect_same_frame(render(), render("array"));
-}
-
-TEST_F(ExternalLayoutTest, MustDeclareTheBuffersOfItsManifest) {
-    copy_layout("array");
-    edit("layout.json", "\"Ranges\"", "\"Stays\"");
-    expect_input_error({"declares no 'Stays'", "raster/conservative", path("layout.json")});
-    copy_layout("array");
-    edit("layout.json", "\"texel\": \"ranges\", ", "");
-    expect_input_error({"no buffer for 'ranges'", "sample/shadow", path("layout.json")});
-    copy_layout("array");
-    edit("layout.json", "rgba32_float", "rgba32_uint");
-    expect_input_error({"'ranges' is of another kind or format", path("layout.json")});
-    copy_layout("array");
-    edit("layout.glsl", "binding = 17", "set = 1, binding = 17");
-    expect_input_error({"not what a layout may declare", path("layout.glsl")});
 }
 
 TEST_F(ExternalLayoutTest, IncludesOnlyFilesOfItsFolder) {

@@ -33,6 +33,7 @@ protected:
 
     SBuffer s_buffer_of(const LightSoup& light, const std::string& layout) {
         const Layout found = with_ranges(find_layout(layout), false);
+        add_layout(device(), programs(), found, {"raster/conservative", "sbuffer/read"});
         return SBuffer(
             device(), programs(),
             walk_bins(programs(), {light.geometry, light.bins}, found.stage("raster/conservative"), light.soup.orthographic),
@@ -170,7 +171,7 @@ TEST_F(RangesTest, CollectedByTexel) {
         SBuffer s_buffer = s_buffer_of(light, layout);
         const std::vector<uint32_t> expected = texel_ranges(light.bins.grid, whole(s_buffer));
         EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 2u);
-        for (const uint64_t bytes : {kEverything, s_buffer.range_count() * 24 / 3}) {
+        for (const uint64_t bytes : {kEverything, s_buffer.map_bytes() / 3}) {
             const std::vector<Band> bands = s_buffer.bands(bytes);
             EXPECT_EQ(bands.size() > 1, bytes != kEverything);
             RangeCollector collector(settings, false);
@@ -202,7 +203,7 @@ TEST_F(RangesTest, BandsTogetherAreTheWhole) {
         SBuffer s_buffer = s_buffer_of(light, layout);
         const Lists expected = whole(s_buffer);
         for (uint64_t parts : {2u, 5u}) {
-            const std::vector<Band> bands = s_buffer.bands(s_buffer.range_count() * 24 / parts);
+            const std::vector<Band> bands = s_buffer.bands(s_buffer.map_bytes() / parts);
             EXPECT_GT(bands.size(), 1u);
             Lists together;
             uint64_t ranges = 0;

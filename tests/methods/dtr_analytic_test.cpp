@@ -100,10 +100,10 @@ TEST_F(DtrAnalyticTest, SaysWhatItUsed) {
     EXPECT_EQ(frame.effective.at("method"), "dtr-analytic");
     EXPECT_EQ(frame.effective.at("raster"), "analytic");
     EXPECT_EQ(frame.effective.at("light_cells"), "2") << "one per segment";
-    EXPECT_GT(frame.stats.buffer_bytes.count("s_buffer.RangeExits"), 0u);
+    EXPECT_GT(frame.stats.buffer_bytes.count("s_buffer.exits"), 0u);
     const Frame exact = render("exact", 64);
     EXPECT_EQ(exact.effective.at("raster"), "conservative");
-    EXPECT_EQ(exact.stats.buffer_bytes.count("s_buffer.RangeExits"), 0u) << "paid for, not used";
+    EXPECT_EQ(exact.stats.buffer_bytes.count("s_buffer.exits"), 0u) << "paid for, not used";
 }
 
 }  // namespace

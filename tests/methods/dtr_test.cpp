@@ -30,7 +30,7 @@ TEST_F(DtrTest, MemoryIsThePapersToTheByte) {
     const uint64_t segments = poses.size() - 1, texels = uint64_t(200) * 200 * segments;
     const uint64_t paper = counts.at("fragments.0") * 16 + counts.at("ranges.0") * 24 + 2 * texels * 4;
     uint64_t allocated = 0;
-    for (const char* name : {"FragmentHeads", "Fragments", "ListHeads", "Ranges", "Links", "RangeExits"})
+    for (const char* name : {"fragment_heads", "fragments", "heads", "ranges", "links", "exits"})
         allocated += frame.stats.buffer_bytes.at(std::string("s_buffer.") + name);
     EXPECT_EQ(allocated, paper);
     EXPECT_EQ(counts.at("map_bytes.0"), paper);
@@ -78,7 +78,7 @@ TEST_F(DtrTest, MemoryAndLayoutsDoNotMatter) {
         const Frame cut = render(method);
         expect_same_bits(cut, expected);
         if (std::string_view(method) == "dtr") {
-            EXPECT_LT(cut.stats.buffer_bytes.at("s_buffer.Fragments"), expected.stats.buffer_bytes.at("s_buffer.Fragments"))
+            EXPECT_LT(cut.stats.buffer_bytes.at("s_buffer.fragments"), expected.stats.buffer_bytes.at("s_buffer.fragments"))
                 << "no bands";
         }
     }

@@ -88,7 +88,8 @@ TEST(MethodTest, ParametersAreTheMethodsOwn) {
 TEST(MethodTest, OnlyExitDepthsCostMemory) {
     const auto range_bytes = [](const Layout& layout) {
         uint32_t bytes = 0;
-        for (const LayoutBuffer& b : layout.buffers) bytes += b.per == LayoutBuffer::Per::range ? b.element_bytes : 0;
+        for (const LayoutBuffer& b : layout.buffers)
+            bytes += b.per == LayoutBuffer::Per::size && b.size == 0 && layout.has(b) ? b.element_bytes : 0;
         return bytes;
     };
     for (const std::string& name : layout_names()) {
