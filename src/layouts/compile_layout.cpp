@@ -11,7 +11,6 @@
 #include <gnomon/error.hpp>
 #include <optional>
 #include <regex>
-#include <set>
 #include <spirv/unified1/spirv.hpp11>
 #include <sstream>
 
@@ -44,8 +43,8 @@ constexpr spv::Capability kCapabilities[] = {
 };
 constexpr const char* kHint = "see docs/layouts.md";
 
-// Resolves includes: those of the stages, and of a layout that is built in, among the embedded sources, whose names are relative;
-// layout.glsl in a folder, and what it includes, there, under absolute names.
+// Resolves includes: those of the stages, and of a layout that is built in, among the embedded sources, whose names are
+// relative; layout.glsl in a folder, and what it includes, there, under absolute names. Both may include from "library/".
 class Includer : public glslang::TShader::Includer {
 public:
     explicit Includer(const Layout& layout)
@@ -63,7 +62,7 @@ public:
 private:
     IncludeResult* resolve(const fs::path& header, const fs::path& from, size_t depth) {
         if (depth > kMostNested) return failed("includes are nested too deeply");
-        if (from.is_absolute()) return in_folder(header, from);
+        if (from.is_absolute() && *header.begin() != "library") return in_folder(header, from);
         if (header == "layout_interface.glsl") return made(header, interface_);
         if (header == "layout.glsl" && !folder_.empty()) return in_folder(header, folder_);
         for (const fs::path& name : {(from / header).lexically_normal(), header, built_in_ / header}) {
@@ -230,19 +229,8 @@ void check_code(const gpu::Reflection& code, const Layout& layout) {
     }
 }
 
-// What a stage binds with any layout, and what the manifest stands for. Stages that only a layout has bind no more than sbuffer/size.
-std::set<std::string> expected_resources(const std::string& stage, const Layout& layout) {
-    std::set<std::string> names = {"LayoutCounters", "counts", "Sizes", "SizeTotals"};
-    for (const LayoutSize& size : layout.sizes) names.insert(read_name(size));
-    for (const LayoutBuffer& buffer : layout.buffers) names.insert({buffer.name, written_name(buffer)});
-    const std::string compiled = stage + "@array";
-    if (has_shader(compiled)) {
-        for (const gpu::Resource& resource : gpu::reflect(find_shader(compiled), {}).resources) names.insert(resource.name);
-    }
-    return names;
-}
-
-void check_resources(const std::vector<uint32_t>& words, const std::string& stage, const Layout& layout) {
+void check_resources(const std::vector<uint32_t>& words, const std::string& stage, const Layout& layout,
+                     std::set<std::string> expected) {
     const std::string where = (layout.folder / "layout.glsl").string();
     gpu::Reflection code;
     try {
@@ -251,7 +239,9 @@ void check_resources(const std::vector<uint32_t>& words, const std::string& stag
         throw Error(ErrorKind::input, std::string("not what a layout may declare: ") + error.what(), where, kHint);
     }
     check_code(code, layout);
-    const std::set<std::string> expected = expected_resources(stage, layout);
+    expected.insert("LayoutCounters");
+    for (const LayoutSize& size : layout.sizes) expected.insert(read_name(size));
+    for (const LayoutBuffer& buffer : layout.buffers) expected.insert({buffer.name, written_name(buffer)});
     for (const gpu::Resource& resource : code.resources) {
         if (expected.count(resource.name) > 0) continue;
         throw Error(ErrorKind::input, "layout declares '" + resource.name + "', which gnomon binds nothing to", where,
@@ -261,28 +251,11 @@ void check_resources(const std::vector<uint32_t>& words, const std::string& stag
 
 }  // namespace
 
-std::vector<uint32_t> compile_stage(const std::string& stage, const Layout& layout, bool storage_reads) {
+std::vector<uint32_t> compile_stage(const std::string& stage, const Layout& layout, bool storage_reads,
+                                    const std::set<std::string>& bound) {
     std::vector<uint32_t> words = compile_in_child(stage, layout, storage_reads);
-    check_resources(words, stage, layout);
+    check_resources(words, stage, layout, bound);
     return words;
-}
-
-void add_stages(Programs& programs, const Layout& layout, const std::vector<std::string>& stages, bool storage_reads) {
-    if (is_compiled(layout)) return;
-    for (const std::string& stage : stages) {
-        // What lies in a folder may be another by now.
-        const std::string name = layout.stage(stage);
-        if (!layout.folder.empty() || !programs.has(name)) programs.add(name, compile_stage(stage, layout, storage_reads));
-    }
-}
-
-std::vector<std::string> s_buffer_stages(const Layout& layout) {
-    std::vector<std::string> stages;
-    const std::string exits = layout.exit_depth ? "_exits" : "";
-    if (layout.sizes.size() > 1) stages.emplace_back("sbuffer/size");
-    if (layout.prepare != Layout::Pass::none) stages.push_back("sbuffer/prepare" + exits);
-    if (layout.finish != Layout::Pass::none) stages.push_back("sbuffer/finish" + exits);
-    return stages;
 }
 
 }  // namespace gnomon

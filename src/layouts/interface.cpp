@@ -24,10 +24,14 @@ std::string reads(uint32_t binding, const std::string& type, const std::string& 
 std::string first_bound(const LayoutBuffer& buffer) {
     const std::string times = buffer.elements == 1 ? "" : " * " + std::to_string(buffer.elements) + "u";
     switch (buffer.per) {
-        case LayoutBuffer::Per::list: return "part_first_tile() * kTileTexels" + times;
-        case LayoutBuffer::Per::tile: return "part_first_tile()" + times;
-        case LayoutBuffer::Per::size: return "params.place_first[" + std::to_string(buffer.size) + "]" + times;
-        default: return "0u";
+        case LayoutBuffer::Per::list:
+            return "part_first_tile() * kTileTexels" + times;
+        case LayoutBuffer::Per::tile:
+            return "part_first_tile()" + times;
+        case LayoutBuffer::Per::size:
+            return "params.place_first[" + std::to_string(buffer.size) + "]" + times;
+        default:
+            return "0u";
     }
 }
 
@@ -41,12 +45,13 @@ std::string atomic_name(const std::string& operation) {
 
 std::string write_accessors(const LayoutBuffer& buffer, uint32_t binding) {
     const std::string place = "@_elements[i - " + first_bound(buffer) + "]", type = buffer.type;
-    std::string text = "layout(binding = " + std::to_string(binding) + ", scalar) buffer " + written_name(buffer) + " { " + type +
-                       " @_elements[]; };\n" + type + " fetch_@(uint i) { return " + place + "; }\n" + "void set_@(uint i, " + type +
-                       " value) { " + place + " = value; }\n";
+    std::string text = "layout(binding = " + std::to_string(binding) + ", scalar) buffer " + written_name(buffer) + " { " +
+                       type + " @_elements[]; };\n" + type + " fetch_@(uint i) { return " + place + "; }\n" +
+                       "void set_@(uint i, " + type + " value) { " + place + " = value; }\n";
     if (type == "uint") {
         for (const char* operation : kAtomics)
-            text += "uint " + atomic_name(operation) + "(uint i, uint value) { return atomic" + operation + "(" + place + ", value); }\n";
+            text += "uint " + atomic_name(operation) + "(uint i, uint value) { return atomic" + operation + "(" + place +
+                    ", value); }\n";
     }
     return text;
 }
@@ -62,8 +67,8 @@ std::string no_writes(const LayoutBuffer& buffer) {
 
 std::string buffer_text(const LayoutBuffer& buffer, uint32_t binding) {
     const std::string exists = buffer.exit_only ? " && defined(GN_RANGE_EXIT)" : "";
-    return named("#if defined(LAYOUT_WRITE)" + exists + "\n" + write_accessors(buffer, binding) + "#elif defined(LAYOUT_READ)" + exists +
-                     "\n" + reads(binding, buffer.type, "@") + no_writes(buffer) + "#else\n" + buffer.type +
+    return named("#if defined(LAYOUT_WRITE)" + exists + "\n" + write_accessors(buffer, binding) + "#elif defined(LAYOUT_READ)" +
+                     exists + "\n" + reads(binding, buffer.type, "@") + no_writes(buffer) + "#else\n" + buffer.type +
                      " fetch_@(uint i) { return " + buffer.type + "(0); }\n" + no_writes(buffer) + "#endif\n",
                  buffer.name);
 }
@@ -75,7 +80,8 @@ std::string size_text(const LayoutSize& size, size_t index, uint32_t binding) {
     const std::string nothing = "#else\n";
     switch (size.as) {
         case LayoutSize::As::values:
-            return named(read + "uint size_@(" + of + ") { return fetch_size_of_@(of.index); }\n" + nothing + "#define size_@(of) 0u\n#endif\n",
+            return named(read + "uint size_@(" + of + ") { return fetch_size_of_@(of.index); }\n" + nothing +
+                             "#define size_@(of) 0u\n#endif\n",
                          size.name);
         case LayoutSize::As::offsets:
             return named(read + "uint first_@(" + of + ") { return fetch_offsets_of_@(of.index); }\n" + "uint end_@(" + of +
@@ -88,7 +94,8 @@ std::string size_text(const LayoutSize& size, size_t index, uint32_t binding) {
                              ", n); }\n#else\n#define allocate_@(n) 0u\n#endif\n",
                          size.name);
         }
-        default: return "";
+        default:
+            return "";
     }
 }
 
@@ -118,13 +125,15 @@ std::string layout_interface(const Layout& layout) {
     if (layout.morton) text += "#define LAYOUT_MORTON\n";
     for (const auto& [name, value] : layout.constants) text += "const uint " + name + " = " + std::to_string(value) + "u;\n";
     if (layout.counts_up())
-        text += "#ifdef LAYOUT_WRITE\nlayout(binding = 17, scalar) buffer LayoutCounters { uint layout_counters[]; };\n#endif\n";
+        text +=
+            "#ifdef LAYOUT_WRITE\nlayout(binding = 17, scalar) buffer LayoutCounters { uint layout_counters[]; };\n#endif\n";
     for (size_t i = 0; i < layout.sizes.size(); ++i)
         text += size_text(layout.sizes[i], i, kSizesBinding + static_cast<uint32_t>(i));
     for (size_t i = 0; i < layout.counters.size(); ++i) {
         const std::string counter = "layout_counters[kMostSizes + " + std::to_string(i) + "u]";
-        text += named("#ifdef LAYOUT_WRITE\nvoid count_@(uint n) { atomicAdd(" + counter + ", n); }\n#else\n#define count_@(n)\n#endif\n",
-                      layout.counters[i]);
+        text += named(
+            "#ifdef LAYOUT_WRITE\nvoid count_@(uint n) { atomicAdd(" + counter + ", n); }\n#else\n#define count_@(n)\n#endif\n",
+            layout.counters[i]);
     }
     for (size_t i = 0; i < layout.buffers.size(); ++i)
         text += buffer_text(layout.buffers[i], kBuffersBinding + static_cast<uint32_t>(i));

@@ -128,12 +128,24 @@ uint64_t Length::value(const Values& of) const {
         stack.pop_back();
         uint64_t& a = stack.back();
         switch (step.kind) {
-            case Kind::add: a = a > kMost - b ? kMost : a + b; break;
-            case Kind::subtract: a = a > b ? a - b : 0; break;
-            case Kind::multiply: a = b != 0 && a > kMost / b ? kMost : a * b; break;
-            case Kind::divide: a = b == 0 ? 0 : a / b; break;
-            case Kind::least: a = std::min(a, b); break;
-            default: a = std::max(a, b); break;
+            case Kind::add:
+                a = a > kMost - b ? kMost : a + b;
+                break;
+            case Kind::subtract:
+                a = a > b ? a - b : 0;
+                break;
+            case Kind::multiply:
+                a = b != 0 && a > kMost / b ? kMost : a * b;
+                break;
+            case Kind::divide:
+                a = b == 0 ? 0 : a / b;
+                break;
+            case Kind::least:
+                a = std::min(a, b);
+                break;
+            default:
+                a = std::max(a, b);
+                break;
         }
     }
     return stack.empty() ? 0 : stack.back();

@@ -28,8 +28,8 @@ struct Element {
 };
 
 const std::map<std::string, Element> kTypes = {
-    {"float", {gpu::Texel::r32_float, 4}},    {"vec2", {gpu::Texel::rg32_float, 8}}, {"vec4", {gpu::Texel::rgba32_float, 16}},
-    {"uint", {gpu::Texel::r32_uint, 4}},      {"uvec2", {gpu::Texel::rg32_uint, 8}}, {"uvec4", {gpu::Texel::rgba32_uint, 16}},
+    {"float", {gpu::Texel::r32_float, 4}}, {"vec2", {gpu::Texel::rg32_float, 8}}, {"vec4", {gpu::Texel::rgba32_float, 16}},
+    {"uint", {gpu::Texel::r32_uint, 4}},   {"uvec2", {gpu::Texel::rg32_uint, 8}}, {"uvec4", {gpu::Texel::rgba32_uint, 16}},
 };
 const std::map<std::string, bool> kExitOnly = {{"always", false}, {"exit", true}};
 const std::map<std::string, LayoutSize::Per> kSizePer = {{"list", LayoutSize::Per::list}, {"tile", LayoutSize::Per::tile}};
@@ -40,7 +40,8 @@ const std::map<std::string, LayoutSize::As> kAs = {{"total", LayoutSize::As::tot
 const std::map<std::string, Layout::Pass> kPasses = {
     {"none", Layout::Pass::none}, {"list", Layout::Pass::list}, {"tile", Layout::Pass::tile}};
 const std::map<std::string, bool> kMorton = {{"rows", false}, {"morton", true}};
-const std::map<std::string, std::string> kIterators = {{"uint", "uint"}, {"uvec2", "uvec2"}, {"uvec3", "uvec3"}, {"uvec4", "uvec4"}};
+const std::map<std::string, std::string> kIterators = {
+    {"uint", "uint"}, {"uvec2", "uvec2"}, {"uvec3", "uvec3"}, {"uvec4", "uvec4"}};
 
 std::string listed(const std::vector<std::string>& names) {
     std::string text;
@@ -99,10 +100,14 @@ public:
         return name;
     }
     void check_identifier(const std::string& member, const std::string& name) const {
-        const auto fits = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_'; };
+        const auto fits = [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+        };
         const bool all = std::all_of(name.begin(), name.end(), fits);
-        if (name.empty() || name.size() > kMostName || !all || (name[0] >= '0' && name[0] <= '9') || name.find("__") != name.npos)
-            fail(member, "is not a name", "use letters, digits and single _, at most " + std::to_string(kMostName) + ", no digit first");
+        if (name.empty() || name.size() > kMostName || !all || (name[0] >= '0' && name[0] <= '9') ||
+            name.find("__") != name.npos)
+            fail(member, "is not a name",
+                 "use letters, digits and single _, at most " + std::to_string(kMostName) + ", no digit first");
     }
 
     uint32_t number(const std::string& member, const nlohmann::json& value) const {
@@ -141,7 +146,6 @@ private:
     std::set<std::string> known_;
 };
 
-
 uint32_t initial_bits(const Members& members, const nlohmann::json& value, gpu::Texel format) {
     if (value == "none" && !is_float(format)) return shared::kNone;
     if (!is_float(format)) return members.number("initial", value);
@@ -170,7 +174,8 @@ void parse_size(Members& members, Layout& layout) {
     size.as = members.one_of("as", kAs);
     const size_t same = size_named(layout, size.name);
     if (same == layout.sizes.size()) {
-        if (layout.sizes.size() == shared::kMostSizes) members.fail("", "is one size more than " + std::to_string(shared::kMostSizes) + " with the ranges");
+        if (layout.sizes.size() == shared::kMostSizes)
+            members.fail("", "is one size more than " + std::to_string(shared::kMostSizes) + " with the ranges");
         layout.sizes.push_back(std::move(size));
         return;
     }
@@ -237,7 +242,8 @@ void parse_buffer(Members& members, Layout& layout) {
         parse_length(members, layout, buffer);
     }
     buffer.exit_only = members.one_of("when", kExitOnly, "always");
-    if (const nlohmann::json* initial = members.find("initial")) buffer.initial = initial_bits(members, *initial, buffer.format);
+    if (const nlohmann::json* initial = members.find("initial"))
+        buffer.initial = initial_bits(members, *initial, buffer.format);
     if (layout.buffers.size() == kMostBuffers) members.fail("", "is one buffer more than " + std::to_string(kMostBuffers));
     layout.buffers.push_back(std::move(buffer));
 }

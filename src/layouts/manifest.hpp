@@ -45,7 +45,7 @@ struct LayoutBuffer {
     gpu::Texel format = gpu::Texel::r32_uint;
     uint32_t element_bytes = 4;
     Per per = Per::band;
-    size_t size = 0;        ///< Index of the size.
+    size_t size = 0;  ///< Index of the size.
     uint32_t elements = 1;
     Length length;
     bool exit_only = false;           ///< Only for methods whose ranges have a depth at their exit.
@@ -60,8 +60,8 @@ struct Layout {
     std::string summary;
     std::string source;  ///< Paper and section.
     bool lossless = true;
-    bool bands = true;      ///< Any run of tiles can be in memory alone.
-    bool morton = false;    ///< Texels of a tile in Morton order; else in rows.
+    bool bands = true;    ///< Any run of tiles can be in memory alone.
+    bool morton = false;  ///< Texels of a tile in Morton order; else in rows.
     std::string iterator = "uvec2";
     std::vector<std::pair<std::string, uint32_t>> constants;
     std::vector<LayoutSize> sizes = {LayoutSize{"ranges", {}, {}, 0}};
@@ -76,6 +76,8 @@ struct Layout {
     std::string stage(const std::string& name_without) const;
     /// Counts of single lists are kept: a size needs them.
     bool keeps_counts() const;
+    /// What it gives contains the ranges, but may be longer and nearer; nothing is lost.
+    bool only_contains() const { return !lossless && counters.empty(); }
     /// The buffer exists, for such ranges.
     bool has(const LayoutBuffer& buffer) const { return exit_depth || !buffer.exit_only; }
     /// Places or counters are given out by atomics.

@@ -7,7 +7,6 @@
 #include <gnomon/error.hpp>
 #include <numeric>
 
-#include "layouts/compile_layout.hpp"
 #include "methods/method.hpp"
 #include "pipeline/closed.hpp"
 #include "pipeline/film.hpp"
@@ -18,6 +17,7 @@
 #include "pipeline/steps.hpp"
 #include "shared/film.h"
 #include "stages/cells.hpp"
+#include "stages/layout_stages.hpp"
 #include "stages/read_lists.hpp"
 #include "stages/sample.hpp"
 #include "views/view.hpp"
@@ -74,10 +74,15 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     const Layout layout =
         with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
     if (method.has_s_buffer()) {
-        std::vector<std::string> stages = s_buffer_stages(layout);
-        stages.insert(stages.end(), {"raster/" + raster, method.shadow_stage});
+        if (method.exit_depth && layout.only_contains()) {
+            throw Error(
+                ErrorKind::usage,
+                "method " + method.name + " needs the very ranges, of which layout " + layout.name + " only contains them",
+                "--layout", "use a layout that is lossless, or --method exact");
+        }
+        std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
         if (keeps_ranges(settings)) stages.push_back(read_lists_stage(method.exit_depth));
-        add_stages(programs, layout, stages, device.limits().storage_reads());
+        add_layout_stages(device, programs, layout, stages);
     }
     device.reset_statistics();
     uint64_t budget = settings.memory_budget > 0 ? settings.memory_budget : device.limits().heap_bytes / 2;

@@ -347,6 +347,7 @@ bool Lights::test_shadows(const Batch& batch, bool may_give_up) {
                 const Band& band = side.bands[b];
                 if (band.t_close <= open || band.t_open >= close) continue;
                 if (side.filled != b && !with_room(i, [&] { side.map->fill(band); })) std::rethrow_exception(failure_);
+                if (side.filled != b) keep_lost(face, band);
                 side.filled = b;
                 shared_.sampler.test_shadows(side, band, tolerance_);
             }
@@ -361,9 +362,26 @@ bool Lights::test_shadows(const Batch& batch, bool may_give_up) {
     return true;
 }
 
+// A band may be filled again, and windows be cut; pages are others for each batch.
+void Lights::keep_lost(Face& face, const Band& band) {
+    const SBuffer* s_buffer = face.side.map->s_buffer();
+    if (s_buffer == nullptr || !s_buffer->lost()) return;
+    const Window& window = face.side.bins.window;
+    const auto replaced = [&](const Face::Lost& other) {
+        const bool apart = other.window.tile_first + other.window.tile_count <= window.tile_first ||
+                           window.tile_first + window.tile_count <= other.window.tile_first;
+        return !apart && (other.window != window || other.item_first == band.item_first);
+    };
+    if (!face.side.asks) std::erase_if(face.lost, replaced);
+    face.lost.push_back({window, band.item_first, *s_buffer->lost()});
+}
+
 void Lights::report(Frame& frame) const {
     for (const Face& face : faces_) {
         const std::string suffix = "." + std::to_string(face.side.light_ix);
+        if (!shared_.layout.counters.empty()) frame.stats.counts["lost" + suffix] += 0;
+        for (const Face::Lost& lost : face.lost)
+            frame.stats.counts["lost" + suffix] += gpu::values_of<uint32_t>(shared_.device, lost.count)[0];
         for (const auto& [tile, counts] : face.counts) {
             for (const auto& [name, count] : counts) frame.stats.counts[name + suffix] += count;
         }

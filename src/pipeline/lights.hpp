@@ -59,7 +59,15 @@ private:
         bool fitted = false;                                         ///< Its view was, or need not be.
         std::map<uint32_t, std::map<std::string, uint64_t>> counts;  ///< Of each window that was made, by its first tile.
         std::map<std::string, std::string> effective;
+        /// What the layout lost in a band.
+        struct Lost {
+            Window window;
+            uint32_t item_first;
+            gpu::Download count;
+        };
+        std::vector<Lost> lost;
     };
+    static void keep_lost(Face& face, const Band& band);
 
     std::vector<Part> parts_of(const View& view) const;
     uint32_t cells(size_t face) const;

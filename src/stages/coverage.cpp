@@ -41,8 +41,8 @@ CoverageMap make_coverage(gpu::Device& device, Programs& programs, const RasterS
                 params.entry_first = source.entry_first();
                 recorder.dispatch(
                     "raster/coverage",
-                    programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}), all, params,
-                    groups_of(count, 8));
+                    programs.get("raster/coverage", {pass, orthographic, cull_back_faces, source.asked != nullptr}), all,
+                    params, groups_of(count, 8));
             }
         }
     }

@@ -42,10 +42,9 @@ private:
         for (const gpu::Binding& binding : s_buffer_.read_bindings()) all.push_back(binding);
         const gpu::Program& program = programs_.get(stage_, {copy, parts_ > 1});
         for (uint32_t part = 0; part < parts_; ++part)
-            device_.recorder().dispatch(
-                "sbuffer/read", program, all,
-                shared::ReadListsParams{static_cast<uint32_t>(list_first), list_count, part},
-                groups_of(list_count, 64));
+            device_.recorder().dispatch("sbuffer/read", program, all,
+                                        shared::ReadListsParams{static_cast<uint32_t>(list_first), list_count, part},
+                                        groups_of(list_count, 64));
     }
 
     gpu::Device& device_;
@@ -62,7 +61,8 @@ std::string read_lists_stage(bool exits) { return exits ? "sbuffer/read_exits" :
 void read_lists(gpu::Device& device, Programs& programs, const SBuffer& s_buffer, const Band& band, const ReadLists& what,
                 const OnLists& on_lists) {
     Reader reader(device, programs, s_buffer, what.exits);
-    const uint64_t base = uint64_t(band.item_first) * shared::kTileTexels, end = uint64_t(band.item_count) * shared::kTileTexels;
+    const uint64_t base = uint64_t(band.item_first) * shared::kTileTexels,
+                   end = uint64_t(band.item_count) * shared::kTileTexels;
     for (uint64_t first = 0; first < end; first += kMostLists) {
         const auto count = static_cast<uint32_t>(std::min<uint64_t>(kMostLists, end - first));
         const std::vector<uint32_t> counts = reader.counts(first, count);

@@ -57,7 +57,8 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     for (size_t i = 0; i < layout_.sizes.size(); ++i) {
         const LayoutSize& size = layout_.sizes[i];
         if (!knows_each(size)) continue;
-        sizes_.push_back({i, read_name(size), device.allocate("s_buffer.each_of_" + size.name, scan_bytes(values_of_size(size, all))), {}});
+        sizes_.push_back(
+            {i, read_name(size), device.allocate("s_buffer.each_of_" + size.name, scan_bytes(values_of_size(size, all))), {}});
     }
     if (layout_.counts_up()) counters_ = device.allocate("s_buffer.counters", kCounters * 4);
     count();
@@ -65,10 +66,14 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
 
 uint64_t SBuffer::elements(const LayoutBuffer& buffer, const Extent& of) const {
     switch (buffer.per) {
-        case LayoutBuffer::Per::list: return of.lists() * buffer.elements;
-        case LayoutBuffer::Per::tile: return of.tiles * buffer.elements;
-        case LayoutBuffer::Per::size: return of.sizes[buffer.size] * buffer.elements;
-        default: break;
+        case LayoutBuffer::Per::list:
+            return of.lists() * buffer.elements;
+        case LayoutBuffer::Per::tile:
+            return of.tiles * buffer.elements;
+        case LayoutBuffer::Per::size:
+            return of.sizes[buffer.size] * buffer.elements;
+        default:
+            break;
     }
     return buffer.length.value([&](const std::string& name) -> uint64_t {
         if (name == "lists") return of.lists();
@@ -108,7 +113,8 @@ bool SBuffer::can_be_bound(const Extent& band) const {
     return std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
         const uint64_t count = elements(m.description, band), bytes = m.description.element_bytes;
         const bool whole = m.description.per == LayoutBuffer::Per::band;
-        return count <= limits.most_elements(bytes) && count < 0xffffffffull && (!whole || count <= limits.max_storage_range / bytes);
+        return count <= limits.most_elements(bytes) && count < 0xffffffffull &&
+               (!whole || count <= limits.max_storage_range / bytes);
     });
 }
 
@@ -118,17 +124,10 @@ uint64_t SBuffer::map_bytes() const {
     return bytes;
 }
 
-uint64_t SBuffer::lost() const {
-    uint64_t lost = 0;
-    for (const auto& [item, counters] : lost_) lost += gpu::values_of<uint32_t>(device_, counters)[0];
-    return lost;
-}
-
 std::map<std::string, uint64_t> SBuffer::counts() const {
     std::map<std::string, uint64_t> counts = raster_->counts();
     counts["ranges"] = range_count();
     counts["map_bytes"] = map_bytes();
-    if (!layout_.counters.empty()) counts["lost"] = lost();
     return counts;
 }
 
@@ -172,7 +171,8 @@ std::vector<gpu::Binding> SBuffer::write_bindings(const Band* part) const {
         const uint64_t first = whole ? 0 : elements(d, bound_before(*part));
         const Band until{band_.item_first, part->item_first - band_.item_first + part->item_count};
         const uint64_t end = elements(d, extent_of(whole ? band_ : until));
-        all.push_back({m.written, &m.buffer, {}, first * d.element_bytes, std::max<uint64_t>(1, end - first) * d.element_bytes});
+        all.push_back(
+            {m.written, &m.buffer, {}, first * d.element_bytes, std::max<uint64_t>(1, end - first) * d.element_bytes});
     }
     return all;
 }
@@ -225,8 +225,9 @@ void SBuffer::count() {
             const auto items = static_cast<uint32_t>(std::min<uint64_t>(most_items, portion.item_count - first));
             const Band part{static_cast<uint32_t>(portion.item_first + first), items};
             const uint64_t offset = uint64_t(part.item_first) * kTileTexels * 4, bytes = uint64_t(items) * kTileTexels * 4;
-            record_pass(false, part,
-                        kept ? gpu::Binding{"ListState", &counts, {}, offset, bytes} : unbound_.at(memory_.size(), "ListState"));
+            record_pass(
+                false, part,
+                kept ? gpu::Binding{"ListState", &counts, {}, offset, bytes} : unbound_.at(memory_.size(), "ListState"));
         }
     }
     totals_.push_back(recorder.download(range_totals_, 0, blocks * sizeof(glm::uvec2)));
@@ -242,19 +243,21 @@ void SBuffer::record_sizes(const gpu::Buffer& counts, uint64_t most_items) {
         const bool tiles = size.per == LayoutSize::Per::tile;
         const auto known = std::find_if(sizes_.begin(), sizes_.end(), [&](const Sizes& s) { return s.index == i; });
         const Extent all{{}, item_count_};
-        const gpu::Buffer unkept =
-            known == sizes_.end() ? device_.allocate("s_buffer.each_of_" + size.name, values_of_size(size, all) * 4) : gpu::Buffer();
+        const gpu::Buffer unkept = known == sizes_.end()
+                                       ? device_.allocate("s_buffer.each_of_" + size.name, values_of_size(size, all) * 4)
+                                       : gpu::Buffer();
         const gpu::Buffer totals = device_.allocate("size_totals", blocks * sizeof(glm::uvec2));
         recorder.fill("sbuffer/size", totals, 0);
         for (uint64_t first = 0; first < item_count_; first += most_items) {
             const uint64_t items = std::min<uint64_t>(most_items, item_count_ - first), lists = items * kTileTexels;
             const uint64_t each = tiles ? 4 : 4 * kTileTexels;
-            recorder.dispatch("sbuffer/size", programs_.get(layout_.stage("sbuffer/size"), {static_cast<uint32_t>(i), tiles}),
-                              bindings({{"counts", &counts, Texel::r32_uint},
-                                        {"Sizes", known == sizes_.end() ? &unkept : &known->values, {}, first * each, items * each},
-                                        {"SizeTotals", &totals}}),
-                              shared::SizeParams{static_cast<uint32_t>(first * kTileTexels), static_cast<uint32_t>(lists)},
-                              groups_of(tiles ? items : lists, 64));
+            recorder.dispatch(
+                "sbuffer/size", programs_.get(layout_.stage("sbuffer/size"), {static_cast<uint32_t>(i), tiles}),
+                bindings({{"counts", &counts, Texel::r32_uint},
+                          {"Sizes", known == sizes_.end() ? &unkept : &known->values, {}, first * each, items * each},
+                          {"SizeTotals", &totals}}),
+                shared::SizeParams{static_cast<uint32_t>(first * kTileTexels), static_cast<uint32_t>(lists)},
+                groups_of(tiles ? items : lists, 64));
         }
         totals_.push_back(recorder.download(totals, 0, blocks * sizeof(glm::uvec2)));
     }
@@ -292,7 +295,8 @@ std::vector<Band> SBuffer::bands(uint64_t bytes) const {
         return BandTooLarge(what, "S-buffer", bytes_of(extent) + work_bytes_of(extent), bytes, "a larger --shadow-res");
     };
     if (fits(counted.back())) return {{0, item_count_, 0, range_count()}};
-    if (!layout_.bands) throw too_large("the ranges of a light's view, whose layout '" + layout_.name + "' has no bands,", counted.back());
+    if (!layout_.bands)
+        throw too_large("the ranges of a light's view, whose layout '" + layout_.name + "' has no bands,", counted.back());
     std::vector<Band> result;
     uint64_t needed = 0;
     Extent largest;
@@ -305,7 +309,8 @@ std::vector<Band> SBuffer::bands(uint64_t bytes) const {
         }
         while (end + 1 < counted.size() && fits(difference(counted[end + 1], counted[first]))) ++end;
         const Extent held = difference(counted[end], counted[first]);
-        result.push_back({static_cast<uint32_t>(counted[first].tiles), static_cast<uint32_t>(held.tiles), counted[first].sizes[0], held.sizes[0]});
+        result.push_back({static_cast<uint32_t>(counted[first].tiles), static_cast<uint32_t>(held.tiles),
+                          counted[first].sizes[0], held.sizes[0]});
     }
     if (needed > 0) throw too_large("the ranges of one block of tiles", largest);
     return result;
@@ -316,7 +321,8 @@ std::vector<Band> SBuffer::parts() const {
     const auto fits = [&](const Extent& part) {
         return part.lists() * 4 <= most && std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
                    const LayoutBuffer& d = m.description;
-                   return d.per == LayoutBuffer::Per::band || (elements(d, part) + kPlaceAlign * d.elements) * d.element_bytes <= most;
+                   return d.per == LayoutBuffer::Per::band ||
+                          (elements(d, part) + kPlaceAlign * d.elements) * d.element_bytes <= most;
                });
     };
     std::vector<Band> result;
@@ -325,7 +331,8 @@ std::vector<Band> SBuffer::parts() const {
         const uint32_t items = std::min(kCountBlock, end - item);
         if (!fits(extent_of(item, items))) {
             throw Error(ErrorKind::out_of_memory,
-                        std::to_string(extent_of(item, items).sizes[0]) + " ranges in one block of tiles are more than the device can bind",
+                        std::to_string(extent_of(item, items).sizes[0]) +
+                            " ranges in one block of tiles are more than the device can bind",
                         "S-buffer", "use a larger --shadow-res");
         }
         const bool begins = result.empty() || portion_of(result.back().item_first) != portion_of(item) ||
@@ -336,8 +343,8 @@ std::vector<Band> SBuffer::parts() const {
     return result;
 }
 
-// Memory for a band. Kept for later ones that need no more of anything: what it takes at most is then known when all were filled
-// once.
+// Memory for a band. Kept for later ones that need no more of anything: what it takes at most is then known when all were
+// filled once.
 void SBuffer::hold(const Extent& held) {
     struct Need {
         gpu::Buffer* buffer;
@@ -347,7 +354,8 @@ void SBuffer::hold(const Extent& held) {
     std::vector<Need> needs;
     for (Sizes& s : sizes_) needs.push_back({&s.band, s.read, scan_bytes(values_of_size(layout_.sizes[s.index], held))});
     for (Memory& m : memory_)
-        needs.push_back({&m.buffer, m.description.name, std::max<uint64_t>(1, elements(m.description, held)) * m.description.element_bytes});
+        needs.push_back({&m.buffer, m.description.name,
+                         std::max<uint64_t>(1, elements(m.description, held)) * m.description.element_bytes});
     if (raster_->part_count() > 1) needs.push_back({&cursors_, "cursors", held.lists() * 4});
     if (std::all_of(needs.begin(), needs.end(), [](const Need& need) { return need.buffer->bytes() >= need.bytes; })) return;
     for (const Need& need : needs) *need.buffer = gpu::Buffer();
@@ -405,11 +413,14 @@ void SBuffer::fill(const Band& band) {
     for (const Band& part : parts) {
         make_source(part.item_first);
         begin_counters(part);
-        const uint64_t first = uint64_t(part.item_first - band.item_first) * kTileTexels * 4, bytes = uint64_t(part.item_count) * kTileTexels * 4;
-        record_pass(true, part, cursors_ ? gpu::Binding{"ListState", &cursors_, {}, first, bytes} : unbound_.at(memory_.size(), "ListState"));
+        const uint64_t first = uint64_t(part.item_first - band.item_first) * kTileTexels * 4,
+                       bytes = uint64_t(part.item_count) * kTileTexels * 4;
+        record_pass(
+            true, part,
+            cursors_ ? gpu::Binding{"ListState", &cursors_, {}, first, bytes} : unbound_.at(memory_.size(), "ListState"));
     }
     record_lists("sbuffer/finish", layout_.finish, parts);
-    if (!layout_.counters.empty()) lost_[band.item_first] = device_.recorder().download(counters_, shared::kMostSizes * 4, 4);
+    if (!layout_.counters.empty()) lost_ = device_.recorder().download(counters_, shared::kMostSizes * 4, 4);
 }
 
 std::vector<gpu::Binding> SBuffer::read_bindings() const {

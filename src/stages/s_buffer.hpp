@@ -31,8 +31,8 @@ public:
     const Layout& layout() const { return layout_; }
     /// Of all lists and ranges, and of what they are made from.
     uint64_t map_bytes() const;
-    /// Entries that the layout says that it has lost, in all bands that were filled.
-    uint64_t lost() const;
+    /// How many ranges of the band that was filled last the layout has lost, if it counts them.
+    const std::optional<gpu::Download>& lost() const { return lost_; }
 
     ItemOrder order() const override { return {raster_->grid().cell_count}; }
     uint32_t item_count() const override { return item_count_; }
@@ -58,8 +58,8 @@ private:
         gpu::Buffer values;  ///< Of the window.
         gpu::Buffer band;    ///< Of the band in memory: the values, or their sums.
     };
-    /// The result of the count pass, which the host waits for when it first asks: what is before each block of items, and before
-    /// the end.
+    /// The result of the count pass, which the host waits for when it first asks: what is before each block of items, and
+    /// before the end.
     using Counted = std::vector<Extent>;
     const Counted& counted() const;
     Extent extent_of(uint32_t item_first, uint32_t item_count) const;
@@ -92,8 +92,8 @@ private:
     size_t prepared_ = ~size_t(0);  ///< Which of them is.
     uint32_t item_count_ = 0;
     uint64_t list_count_ = 0;
-    Band band_;                           ///< That is in memory.
-    std::vector<gpu::Download> totals_;   ///< Of each size: what each block of items has.
+    Band band_;                          ///< That is in memory.
+    std::vector<gpu::Download> totals_;  ///< Of each size: what each block of items has.
     mutable std::optional<Counted> counted_;
     gpu::Buffer range_totals_;  ///< The ranges of each block of items.
     Unbound unbound_;           ///< Stands in for what is not in memory while ranges are counted.
@@ -101,7 +101,7 @@ private:
     std::vector<Memory> memory_;
     gpu::Buffer cursors_;   ///< Of the band's lists, while they are walked in several dispatches.
     gpu::Buffer counters_;  ///< The next place of each size that is allocated; then the layout's own counters.
-    std::map<uint32_t, gpu::Download> lost_;  ///< The layout's counters in each band, by its first item.
+    std::optional<gpu::Download> lost_;
 };
 
 }  // namespace gnomon

@@ -12,10 +12,12 @@ namespace {
 // Up to this many values are scanned by one invocation.
 constexpr uint32_t kSerialCount = 1024;
 
-void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values, uint64_t values_first,
-                  uint32_t count, const gpu::Buffer& sums, bool first_level, const Scan& scan) {
+void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values,
+                  uint64_t values_first, uint32_t count, const gpu::Buffer& sums, bool first_level, const Scan& scan) {
     using gpu::Texel;
-    const auto view = [&](Texel texel) { return gpu::Binding{"values", &values, texel, values_first * 4, groups_of(count, 4) * 16}; };
+    const auto view = [&](Texel texel) {
+        return gpu::Binding{"values", &values, texel, values_first * 4, groups_of(count, 4) * 16};
+    };
     if (count <= kSerialCount) {
         recorder.dispatch("scan", programs.get("scan/serial", {first_level}),
                           bindings({view(Texel::r32_uint), {"Sums", &sums}, {"Longest", &scan.longest}}),
@@ -36,11 +38,10 @@ void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& record
         uint32_t part = static_cast<uint32_t>(std::min<uint64_t>(most_runs, run_count - first));
         uint64_t offset = first * shared::kScanRun * 4;
         uint64_t bytes = first + part < run_count ? uint64_t(part) * shared::kScanRun * 4 : scan_bytes(count) - offset;
-        recorder.dispatch("scan", programs.get("scan/spread"),
-                          bindings({view(Texel::rgba32_uint),
-                                    {"runs", &before, Texel::r32_uint},
-                                    {"Sums", &sums, {}, offset, bytes}}),
-                          shared::ScanParams{count, static_cast<uint32_t>(first), part}, groups_of(part, 64));
+        recorder.dispatch(
+            "scan", programs.get("scan/spread"),
+            bindings({view(Texel::rgba32_uint), {"runs", &before, Texel::r32_uint}, {"Sums", &sums, {}, offset, bytes}}),
+            shared::ScanParams{count, static_cast<uint32_t>(first), part}, groups_of(part, 64));
     }
 }
 

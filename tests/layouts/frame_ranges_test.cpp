@@ -204,7 +204,7 @@ TEST(FrameRanges, AreTheSameHoweverTheyWereMade) {
             const auto expect_same = [&](const std::string& how) {
                 EXPECT_TRUE(dumped(scene, settings).light_ranges.at(0).ranges == expected) << method << ", " << how;
             };
-            for (const std::string& layout : layout_names()) {
+            for (const std::string layout : {"array", "linked"}) {
                 settings.layout = layout;
                 expect_same(layout);
                 settings.layout = std::string(GN_PATH(GNOMON_SOURCE_DIR)) + "/comp_shaders/layouts/" + layout;
@@ -226,7 +226,7 @@ TEST(FrameRanges, DoNotDependOnTheBudget) {
     settings.spp = 1;
     settings.shadow_res = 2000;
     settings.keep_ranges = true;
-    for (const std::string& layout : layout_names()) {
+    for (const std::string layout : {"array", "linked"}) {
         settings.layout = layout;
         settings.memory_budget = 0;
         const Frame expected = validated_renderer().render(scene.scene, scene.poses, settings);

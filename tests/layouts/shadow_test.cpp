@@ -3,9 +3,9 @@
 #include <random>
 
 #include "end_to_end/moving_triangles.hpp"
+#include "lists.hpp"
 #include "math/sample.h"
 #include "oracle/brute_force.hpp"
-#include "lists.hpp"
 #include "pipeline/light_records.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "stage_test.hpp"
@@ -52,13 +52,12 @@ protected:
         for (LightSide& side : sides) {
             side.bins = bin_prisms(device(), programs(), geometry, side.view, setup.light_cells);
             const Layout layout = with_ranges(find_layout(setup.layout), false);
-            add_layout(device(), programs(), layout, {"raster/conservative", "sample/shadow"});
+            add_layout_stages(device(), programs(), layout, {"raster/conservative", "sample/shadow"});
             auto s_buffer = std::make_unique<SBuffer>(
                 device(), programs(),
                 walk_bins(programs(), {geometry, side.bins}, layout.stage("raster/conservative"), side.view.orthographic),
                 layout);
-            side.bands =
-                s_buffer->bands(setup.band_share == 1 ? 1ull << 40 : s_buffer->map_bytes() / setup.band_share + 16384);
+            side.bands = s_buffer->bands(setup.band_share == 1 ? 1ull << 40 : s_buffer->map_bytes() / setup.band_share + 16384);
             side.map = std::move(s_buffer);
             answers.bands = std::max(answers.bands, side.bands.size());
         }

@@ -85,7 +85,7 @@ TEST_F(DtrAnalyticTest, FacesAcrossTheLightDoNotShadowThemselves) {
 
 TEST_F(DtrAnalyticTest, IsTheSameInEveryLayout) {
     const Frame expected = render("dtr-analytic", 200);
-    for (const std::string& layout : layout_names()) {
+    for (const std::string layout : {"array", "linked", "array-counter", "sorted-time"}) {
         settings.layout = layout;
         const Frame frame = render("dtr-analytic", 200);
         EXPECT_EQ(frame.effective.at("layout"), layout);

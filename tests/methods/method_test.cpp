@@ -38,6 +38,7 @@ TEST(MethodTest, NamesAreUniqueAndStagesExist) {
             continue;
         }
         for (const std::string& layout : layout_names()) {
+            if (!is_compiled(find_layout(layout))) continue;
             EXPECT_FALSE(find_shader(method.shadow_stage + "@" + layout).spirv.empty());
             for (const std::string& raster : method.rasters)
                 EXPECT_FALSE(find_shader("raster/" + raster + "@" + layout).spirv.empty());
@@ -92,7 +93,7 @@ TEST(MethodTest, OnlyExitDepthsCostMemory) {
             bytes += b.per == LayoutBuffer::Per::size && b.size == 0 && layout.has(b) ? b.element_bytes : 0;
         return bytes;
     };
-    for (const std::string& name : layout_names()) {
+    for (const char* name : {"array", "linked"}) {
         const Layout layout = find_layout(name);
         EXPECT_EQ(range_bytes(with_ranges(layout, true)), range_bytes(with_ranges(layout, false)) + 4) << name;
     }

@@ -18,11 +18,6 @@ std::vector<std::vector<uint32_t>> read_bins(gpu::Device& device, const Bins& bi
     return lists;
 }
 
-void add_layout(gpu::Device& device, Programs& programs, const Layout& layout, std::vector<std::string> stages) {
-    for (const std::string& stage : s_buffer_stages(layout)) stages.push_back(stage);
-    add_stages(programs, layout, stages, device.limits().storage_reads());
-}
-
 namespace {
 
 std::vector<std::vector<shared::ListRange>> read(gpu::Device& device, Programs& programs, const SBuffer& s_buffer,

@@ -2,16 +2,13 @@
 // The lists that the device made, read back.
 #pragma once
 
-#include "layouts/compile_layout.hpp"
+#include "stages/layout_stages.hpp"
 #include "stages/s_buffer.hpp"
 
 namespace gnomon::test {
 
 /// Entries per tile and cell: tile * cell_count + cell.
 std::vector<std::vector<uint32_t>> read_bins(gpu::Device& device, const Bins& bins);
-
-/// The stages of a layout, and of its S-buffer, where they were not compiled with gnomon.
-void add_layout(gpu::Device& device, Programs& programs, const Layout& layout, std::vector<std::string> stages);
 
 struct RangeRecord {
     float enter = 0.0f;

@@ -91,6 +91,13 @@ void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions&
     spdlog::info("wrote {}; rendered in {:.2f} s", fmt::join(outputs, ", "), frame.stats.wall_seconds);
 }
 
+// What layouts of a fixed capacity lost, of all lights: the counts lost.<light>.
+uint64_t lost_ranges(const FrameStats& stats) {
+    uint64_t lost = 0;
+    for (const auto& [name, count] : stats.counts) lost += name.starts_with("lost.") ? count : 0;
+    return lost;
+}
+
 void check_triangles(const Scene& scene) {
     if (scene.triangles.size() > io::kMostDumpedTriangles)
         throw Error(ErrorKind::input,
@@ -135,8 +142,8 @@ int render(const RenderOptions& options, bool quiet) {
                       frame_settings(options, settings, job, drawn.cameras[settings.camera].name, renderer.device()),
                       drawn.warnings);
         log_statistics(frame.stats);
-        if (const auto lost = frame.stats.counts.find("lost_entries"); lost != frame.stats.counts.end() && lost->second > 0) {
-            spdlog::warn("the layout {} lost {} entries: it has a fixed capacity", settings.layout, lost->second);
+        if (const uint64_t lost = lost_ranges(frame.stats); lost > 0) {
+            spdlog::warn("the layout {} lost {} ranges: it has a fixed capacity", settings.layout, lost);
             exit_code = kLostEntries;
         }
     }
