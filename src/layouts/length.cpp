@@ -114,7 +114,7 @@ private:
     size_t nested_ = 0;
 };
 
-Length::Length(std::string_view text) { LengthParser(text, *this); }
+Length::Length(std::string_view text) : text_(text) { LengthParser(text, *this); }
 
 uint64_t Length::value(const Values& of) const {
     std::vector<uint64_t> stack;

@@ -23,6 +23,7 @@ public:
 
     uint64_t value(const Values& of) const;
     const std::vector<std::string>& names() const { return names_; }
+    const std::string& text() const { return text_; }
 
 private:
     friend class LengthParser;
@@ -32,6 +33,7 @@ private:
     };
     std::vector<Step> steps_;  ///< In reverse Polish order.
     std::vector<std::string> names_;
+    std::string text_;
 };
 
 }  // namespace gnomon

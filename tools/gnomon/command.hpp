@@ -31,6 +31,7 @@ void add_render(CLI::App& app, Invocation& invocation);
 void add_info(CLI::App& app, Invocation& invocation);
 void add_devices(CLI::App& app, Invocation& invocation);
 void add_doctor(CLI::App& app, Invocation& invocation);
+void add_layouts(CLI::App& app, Invocation& invocation);
 void add_methods(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_probe(CLI::App& app, Invocation& invocation);

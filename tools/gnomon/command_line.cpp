@@ -17,6 +17,7 @@ CommandLine::CommandLine()
     add_info(app_, invocation_);
     add_devices(app_, invocation_);
     add_doctor(app_, invocation_);
+    add_layouts(app_, invocation_);
     add_methods(app_, invocation_);
     add_compare(app_, invocation_);
     add_probe(app_, invocation_);

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon layouts`, and a layout of one's own from there to the picture.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "command_runner.hpp"
+#include "support/paths.hpp"
+#include "test_folder.hpp"
+
+namespace gnomon::test {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class CliLayoutsTest : public TestFolder {
+protected:
+    CommandResult layouts(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "layouts");
+        return run_gnomon(folder, arguments);
+    }
+
+    CommandResult render(const std::string& layout, const std::string& output, const std::string& method = "exact") {
+        const std::string path = std::string(GN_PATH(GNOMON_SOURCE_DIR)) + "/scenes/two-cubes.gltf";
+        return run_gnomon(folder, {"render", path, "-o", output, "--size=32x24", "--spp=4", "--shadow-res=128", "--method",
+                                   method, "--layout", layout, "--json", output + ".json"});
+    }
+};
+
+TEST_F(CliLayoutsTest, Lists) {
+    const CommandResult text = layouts({});
+    EXPECT_EQ(text.exit_code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("\npaged\n"));
+    std::map<std::string, json> by_name;
+    const json document = json::parse(layouts({"--json", "-"}).out);
+    for (const json& layout : document["layouts"]) by_name[layout["name"]] = layout;
+    EXPECT_EQ(by_name.at("array")["bytes"], "16 ranges + 8 lists");
+    EXPECT_EQ(by_name.at("array")["bytes_with_exit"], "20 ranges + 8 lists");
+    EXPECT_EQ(by_name.at("array")["passes"], json({"count", "scan", "fill"}));
+    EXPECT_EQ(by_name.at("linked")["bytes"], "4 lists + 20 ranges");
+    EXPECT_EQ(by_name.at("sorted-time")["passes"], json({"count", "scan", "fill", "finish"}));
+    EXPECT_EQ(by_name.at("array-counter")["passes"], json({"count", "size", "prepare", "fill"}));
+    EXPECT_EQ(by_name.at("paged")["bytes"], "12 lists + 68 pages");
+    EXPECT_EQ(by_name.at("jagged")["bytes"], "1024 slots + 8 lists + 8 tiles");
+    EXPECT_EQ(by_name.at("null")["bytes"], "0");
+    EXPECT_EQ(by_name.at("no-depth")["methods"], json({"exact"}));
+    EXPECT_FALSE(by_name.at("fixed")["lossless"]);
+    EXPECT_TRUE(by_name.at("paged")["lossless"]);
+}
+
+TEST_F(CliLayoutsTest, OneOfMyOwn) {
+    GN_SKIP_WITHOUT_DEVICE(run_gnomon(folder, {"devices"}));
+    const CommandResult made = layouts({"new", "mine/", "--from", "paged"});
+    EXPECT_EQ(made.exit_code, 0) << made.err;
+    EXPECT_EQ(json::parse(content_of(folder / "mine" / "layout.json"))["name"], "mine");
+    EXPECT_EQ(render("mine", "a.exr").exit_code, 0);
+    EXPECT_EQ(render("paged", "b.exr").exit_code, 0);
+    EXPECT_EQ(run_gnomon(folder, {"compare", "--hash", "a.exr", "b.exr"}).exit_code, 0);
+    EXPECT_EQ(json::parse(content_of(folder / "a.exr.json"))["effective"]["layout"], "mine");
+}
+
+TEST_F(CliLayoutsTest, NewDoesNotReplace) {
+    put_content(folder / "mine", "a file");
+    const CommandResult there = layouts({"new", "mine"});
+    EXPECT_EQ(there.exit_code, 3);
+    EXPECT_THAT(there.err, HasSubstr("there is something of that name, mine"));
+    EXPECT_EQ(content_of(folder / "mine"), "a file");
+    EXPECT_EQ(layouts({"new", "no/such/mine"}).exit_code, 3);
+    EXPECT_EQ(layouts({"new"}).exit_code, 2);
+    const CommandResult unknown = layouts({"new", "other", "--from", "heap"});
+    EXPECT_EQ(unknown.exit_code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "other"));
+}
+
+TEST_F(CliLayoutsTest, LostRangesAreExitCode7) {
+    GN_SKIP_WITHOUT_DEVICE(run_gnomon(folder, {"devices"}));
+    const CommandResult result = render("null", "a.exr");
+    EXPECT_EQ(result.exit_code, 7);
+    EXPECT_THAT(result.err, HasSubstr("the layout null lost "));
+    const json counts = json::parse(content_of(folder / "a.exr.json"))["counts"];
+    EXPECT_EQ(counts["lost.0"], counts["ranges.0"]);
+    EXPECT_TRUE(std::filesystem::exists(folder / "a.exr"));
+    const CommandResult other = render("no-depth", "b.exr", "dtr");
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_THAT(other.err, HasSubstr("--method exact"));
+}
+
+}  // namespace gnomon::test

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// `gnomon layouts`: the S-buffer layouts that are built in, and the beginning of another.
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <gnomon/error.hpp>
+#include <memory>
+
+#include "command.hpp"
+#include "io/atomic_file.hpp"
+#include "layouts/layout.hpp"
+#include "methods/method.hpp"
+
+namespace gnomon::cli {
+
+namespace {
+
+// What it makes of ranges.
+std::string keeps(const Layout& layout) {
+    if (layout.lossless) return "all ranges";
+    return layout.only_contains() ? "ranges that contain the true ones" : "some ranges, and counts those that are lost";
+}
+
+std::vector<std::string> passes(const Layout& layout) {
+    std::vector<std::string> names = {"count"};
+    if (layout.sizes.size() > 1) names.emplace_back("size");
+    const auto summed = [](const LayoutSize& size) { return size.as == LayoutSize::As::offsets; };
+    if (std::any_of(layout.sizes.begin(), layout.sizes.end(), summed)) names.emplace_back("scan");
+    if (layout.prepare != Layout::Pass::none) names.emplace_back("prepare");
+    names.emplace_back("fill");
+    if (layout.finish != Layout::Pass::none) names.emplace_back("finish");
+    return names;
+}
+
+std::vector<std::string> methods_of(const Layout& layout) {
+    std::vector<std::string> names;
+    for (const Method& method : methods()) {
+        if (method.has_s_buffer() && !(method.exit_depth && layout.only_contains())) names.push_back(method.name);
+    }
+    return names;
+}
+
+/// The document "gnomon.layouts".
+io::Json layouts_json() {
+    io::Json json = io::document("layouts");
+    json["layouts"] = io::Json::array();
+    for (const std::string& name : layout_names()) {
+        const Layout layout = find_layout(name);
+        json["layouts"].push_back({{"name", name},
+                                   {"summary", layout.summary},
+                                   {"source", layout.source},
+                                   {"lossless", layout.lossless},
+                                   {"keeps", keeps(layout)},
+                                   {"bytes", bytes_formula(layout)},
+                                   {"bytes_with_exit", bytes_formula(with_ranges(layout, true))},
+                                   {"passes", passes(layout)},
+                                   {"methods", methods_of(layout)}});
+    }
+    return json;
+}
+
+void print_layouts() {
+    for (const std::string& name : layout_names()) {
+        const Layout layout = find_layout(name);
+        print_line(name);
+        print_line(fmt::format("    {}", layout.summary));
+        if (!layout.source.empty()) print_line(fmt::format("    from: {}", layout.source));
+        print_line(fmt::format("    keeps {}", keeps(layout)));
+        print_line(fmt::format("    bytes: {}", bytes_formula(layout)));
+        print_line(fmt::format("    passes: {}", fmt::join(passes(layout), ", ")));
+        print_line(fmt::format("    methods: {}", fmt::join(methods_of(layout), ", ")));
+    }
+}
+
+struct NewOptions {
+    std::string folder;
+    std::string from = "array";
+};
+
+// A copy of another, under a name of its own.
+int make_layout(const NewOptions& options) {
+    LayoutFiles files = layout_files(options.from);
+    const std::filesystem::path folder = std::filesystem::path(options.folder).lexically_normal();
+    const std::string name = folder.has_filename() ? folder.filename().string() : folder.parent_path().filename().string();
+    std::error_code error;
+    if (std::filesystem::exists(folder, error))
+        throw Error(ErrorKind::input, "there is something of that name", options.folder, "name a folder that is not there");
+    // The first string behind the first "name" is the layout's.
+    const size_t member = files.manifest.find("\"name\""), open = files.manifest.find('"', files.manifest.find(':', member));
+    const size_t close = files.manifest.find('"', open + 1);
+    files.manifest.replace(open, close - open + 1, io::Json(name).dump());
+    if (!std::filesystem::create_directory(folder, error))
+        throw Error(ErrorKind::input, "the folder cannot be made: " + error.message(), options.folder, "name another one");
+    io::write_file(folder / "layout.json", files.manifest);
+    io::write_file(folder / "layout.glsl", files.glsl);
+    print_line(folder.string());
+    return kDone;
+}
+
+}  // namespace
+
+void add_layouts(CLI::App& app, Invocation& invocation) {
+    CLI::App* command = add_command(app, invocation, "layouts", "List the layouts of --layout, or begin one");
+    auto json = std::make_shared<std::string>();
+    command->add_option("--json", *json, "Write it as JSON; - for stdout, instead of the text")->type_name("FILE.json");
+    CLI::App* make = add_command(*command, invocation, "new", "Make a folder with a layout of your own, a copy of another");
+    auto options = std::make_shared<NewOptions>();
+    make->add_option("FOLDER", options->folder, "To be made")->required();
+    make->add_option("--from", options->from, "A layout's name, or its folder")
+        ->type_name("NAME or FOLDER")
+        ->capture_default_str();
+    command->require_subcommand(0, 1);
+    command->callback([&invocation, make, json, options] {
+        invocation.run = [make, json, options] {
+            if (make->parsed()) return make_layout(*options);
+            if (!json->empty()) write_json(*json, layouts_json());
+            if (*json != "-") print_layouts();
+            return static_cast<int>(kDone);
+        };
+    });
+}
+
+}  // namespace gnomon::cli
