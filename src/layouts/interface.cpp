@@ -26,8 +26,6 @@ std::string first_bound(const LayoutBuffer& buffer) {
     switch (buffer.per) {
         case LayoutBuffer::Per::list:
             return "part_first_tile() * kTileTexels" + times;
-        case LayoutBuffer::Per::tile:
-            return "part_first_tile()" + times;
         case LayoutBuffer::Per::size:
             return "params.place_first[" + std::to_string(buffer.size) + "]" + times;
         default:
@@ -52,8 +50,15 @@ std::string write_accessors(const LayoutBuffer& buffer, uint32_t binding) {
         for (const char* operation : kAtomics)
             text += "uint " + atomic_name(operation) + "(uint i, uint value) { return atomic" + operation + "(" + place +
                     ", value); }\n";
+        text += "uint compare_exchange_@(uint i, uint expected, uint value) { return atomicCompSwap(" + place +
+                ", expected, value); }\n";
     }
     return text;
+}
+
+// Only what is bound as a whole knows its length everywhere.
+std::string length_accessor(const LayoutBuffer& buffer, const std::string& length) {
+    return buffer.per == LayoutBuffer::Per::band ? "uint length_@() { return " + length + "; }\n" : "";
 }
 
 // In stages that do not write.
@@ -61,15 +66,18 @@ std::string no_writes(const LayoutBuffer& buffer) {
     std::string text = "#define set_@(i, value)\n";
     if (buffer.type == "uint") {
         for (const char* operation : kAtomics) text += "#define " + atomic_name(operation) + "(i, value) 0u\n";
+        text += "#define compare_exchange_@(i, expected, value) 0u\n";
     }
     return text;
 }
 
 std::string buffer_text(const LayoutBuffer& buffer, uint32_t binding) {
     const std::string exists = buffer.exit_only ? " && defined(GN_RANGE_EXIT)" : "";
-    return named("#if defined(LAYOUT_WRITE)" + exists + "\n" + write_accessors(buffer, binding) + "#elif defined(LAYOUT_READ)" +
-                     exists + "\n" + reads(binding, buffer.type, "@") + no_writes(buffer) + "#else\n" + buffer.type +
-                     " fetch_@(uint i) { return " + buffer.type + "(0); }\n" + no_writes(buffer) + "#endif\n",
+    return named("#if defined(LAYOUT_WRITE)" + exists + "\n" + write_accessors(buffer, binding) +
+                     length_accessor(buffer, "uint(@_elements.length())") + "#elif defined(LAYOUT_READ)" + exists + "\n" +
+                     reads(binding, buffer.type, "@") + length_accessor(buffer, "READ_COUNT(@)") + no_writes(buffer) +
+                     "#else\n" + buffer.type + " fetch_@(uint i) { return " + buffer.type + "(0); }\n" +
+                     length_accessor(buffer, "1u") + no_writes(buffer) + "#endif\n",
                  buffer.name);
 }
 

@@ -48,7 +48,6 @@ public:
     uint64_t longest() const override { return ranges_.longest(); }
     std::vector<Band> bands(uint64_t bytes) const override { return ranges_.bands(bytes); }
     void fill(const Band& band) override { ranges_.fill(band); }
-    uint32_t range_base() const override { return ranges_.range_base(); }
     const SBuffer* s_buffer() const override { return &ranges_; }
     std::map<std::string, uint64_t> counts() const override {
         std::map<std::string, uint64_t> counts = ranges_.counts();

@@ -25,6 +25,11 @@ uint64_t values_of_size(const LayoutSize& size, const Extent& of) {
     return size.per == LayoutSize::Per::tile ? of.tiles : of.lists();
 }
 
+// Bound as a whole by every part: it may be written anywhere, or is so small that cutting it is not worth it.
+bool is_whole(const LayoutBuffer& buffer) {
+    return buffer.per == LayoutBuffer::Per::band || buffer.per == LayoutBuffer::Per::tile;
+}
+
 bool knows_each(const LayoutSize& size) { return size.as == LayoutSize::As::values || size.as == LayoutSize::As::offsets; }
 
 Extent difference(const Extent& end, const Extent& begin) {
@@ -112,7 +117,7 @@ bool SBuffer::can_be_bound(const Extent& band) const {
     const gpu::Limits& limits = device_.limits();
     return std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
         const uint64_t count = elements(m.description, band), bytes = m.description.element_bytes;
-        const bool whole = m.description.per == LayoutBuffer::Per::band;
+        const bool whole = is_whole(m.description);
         return count <= limits.most_elements(bytes) && count < 0xffffffffull &&
                (!whole || count <= limits.max_storage_range / bytes);
     });
@@ -167,7 +172,7 @@ std::vector<gpu::Binding> SBuffer::write_bindings(const Band* part) const {
             all.push_back(unbound_.at(i, m.written));
             continue;
         }
-        const bool whole = d.per == LayoutBuffer::Per::band;
+        const bool whole = is_whole(d);
         const uint64_t first = whole ? 0 : elements(d, bound_before(*part));
         const Band until{band_.item_first, part->item_first - band_.item_first + part->item_count};
         const uint64_t end = elements(d, extent_of(whole ? band_ : until));
@@ -321,8 +326,7 @@ std::vector<Band> SBuffer::parts() const {
     const auto fits = [&](const Extent& part) {
         return part.lists() * 4 <= most && std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
                    const LayoutBuffer& d = m.description;
-                   return d.per == LayoutBuffer::Per::band ||
-                          (elements(d, part) + kPlaceAlign * d.elements) * d.element_bytes <= most;
+                   return is_whole(d) || (elements(d, part) + kPlaceAlign * d.elements) * d.element_bytes <= most;
                });
     };
     std::vector<Band> result;

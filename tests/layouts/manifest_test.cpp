@@ -106,14 +106,26 @@ TEST(ManifestTest, OnlyRangesHaveASizeWhereNoneIsNamed) {
 
 TEST(InterfaceTest, Accessors) {
     const std::string text = layout_interface(parse_layout(kManifest, "layout.json"));
-    for (const char* part :
-         {"#define Iterator uvec4\n", "#define LAYOUT_COUNTS\n", "#define LAYOUT_MORTON\n", "#define LAYOUT_PREPARES_TILES\n",
-          "const uint PAGE = 4u;\n", "uint first_ranges(List of)", "uint end_ranges(List of)", "uint allocate_pages(uint n)",
-          "uint size_longest(Tile of)", "void count_lost(uint n)", "buffer Written_heads { uint heads_elements[]; }",
-          "heads_elements[i - part_first_tile() * kTileTexels]", "nodes_elements[i - params.place_first[1] * 4u]",
-          "table_elements[i - 0u]", "uint exchange_heads(uint i, uint value)", "READ_VEC4(25, nodes)",
-          "defined(LAYOUT_WRITE) && defined(GN_RANGE_EXIT)", "#define LAYOUT_LIST_SIZES VISIT(pages, 1u)\n",
-          "#define LAYOUT_TILE_SIZES VISIT(longest, 2u)\n"})
+    for (const char* part : {"#define Iterator uvec4\n",
+                             "#define LAYOUT_COUNTS\n",
+                             "#define LAYOUT_MORTON\n",
+                             "#define LAYOUT_PREPARES_TILES\n",
+                             "const uint PAGE = 4u;\n",
+                             "uint first_ranges(List of)",
+                             "uint end_ranges(List of)",
+                             "uint allocate_pages(uint n)",
+                             "uint size_longest(Tile of)",
+                             "void count_lost(uint n)",
+                             "buffer Written_heads { uint heads_elements[]; }",
+                             "heads_elements[i - part_first_tile() * kTileTexels]",
+                             "nodes_elements[i - params.place_first[1] * 4u]",
+                             "table_elements[i - 0u]",
+                             "uint exchange_heads(uint i, uint value)",
+                             "uint length_table() { return READ_COUNT(table); }",
+                             "READ_VEC4(25, nodes)",
+                             "defined(LAYOUT_WRITE) && defined(GN_RANGE_EXIT)",
+                             "#define LAYOUT_LIST_SIZES VISIT(pages, 1u)\n",
+                             "#define LAYOUT_TILE_SIZES VISIT(longest, 2u)\n"})
         EXPECT_THAT(text, HasSubstr(part));
     EXPECT_THAT(text, Not(HasSubstr("@")));
     EXPECT_THAT(text, Not(HasSubstr("exchange_nodes")));
