@@ -12,8 +12,9 @@ layout(constant_id = 0) const uint kSize = 1u;
 layout(constant_id = 1) const bool kTiles = false;
 READ_UINT(0, counts)
 layout(binding = 1, scalar) writeonly buffer Sizes { uint sizes[]; };
-layout(binding = 2, scalar) buffer SizeTotals { uvec2 size_totals[]; };
+layout(binding = 2, scalar) buffer SizeTotals { uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { SizeParams params; };
+#include "common/range_count.glsl"
 #include "common/s_buffer.glsl"
 
 uint size_of(uint tile, uint texel) {
@@ -39,12 +40,17 @@ uint size_of(uint tile, uint texel) {
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
     uint first = kTiles ? params.list_first / kTileTexels : params.list_first;
+    // Of lists a whole workgroup.
     if (i >= (kTiles ? params.list_count / kTileTexels : params.list_count)) return;
     uint number = first + i;
     uint tile = kTiles ? number : number / kTileTexels;
     uint texel = kTiles ? 0u : number % kTileTexels;
     uint size = size_of(tile, texel);
     sizes[kTiles ? i : list_at(tile, texel).index - params.list_first] = size;
-    uint before = atomicAdd(size_totals[tile / kCountBlock].x, size);
-    if (before + size < before) atomicAdd(size_totals[tile / kCountBlock].y, 1u);
+    if (kTiles) {
+        uint before = atomicAdd(range_counts[tile / kCountBlock].x, size);
+        if (before + size < before) atomicAdd(range_counts[tile / kCountBlock].y, 1u);
+    } else {
+        add_range_count(tile / kCountBlock, size);
+    }
 }

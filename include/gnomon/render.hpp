@@ -43,6 +43,7 @@ struct RenderSettings {
     bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges. Does what `pages` "all" and no `static_once` do, and leaves
                                      ///< suns' views as they are; so does the next.
     bool keep_ranges = false;        ///< Fill Frame::light_ranges.
+    bool poison_layout = false;      ///< What a layout does not initialise holds 0xcdcdcdcd, so that it shows.
     bool count_ranges = false;       ///< Count the ranges that the shadow tests look at and test; costs some percent.
 };
 

@@ -53,6 +53,8 @@ struct LayoutBuffer {
     size_t line = 0;
 };
 
+constexpr uint32_t kPoison = 0xcdcdcdcd;
+
 struct Layout {
     enum class Pass { none, list, tile };
 
@@ -71,6 +73,8 @@ struct Layout {
     Pass finish = Pass::none;
     std::filesystem::path folder;  ///< Absolute; empty: built in.
     bool exit_depth = false;       ///< Its ranges have a depth at their exit: the method's wish, not the manifest's.
+
+    bool poisoned = false;         ///< What it does not initialise holds kPoison: a check's wish.
 
     /// The name among the programs of a stage compiled for this layout.
     std::string stage(const std::string& name_without) const;

@@ -71,8 +71,8 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     const Method& method = find_method(settings.method);
     check_parameters(method, settings.parameters);
     const std::string raster = choose_raster(method, settings.raster);
-    const Layout layout =
-        with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
+    Layout layout = with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
+    layout.poisoned = settings.poison_layout;
     if (method.has_s_buffer()) {
         if (method.exit_depth && layout.only_contains()) {
             throw Error(

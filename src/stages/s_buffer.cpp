@@ -409,7 +409,8 @@ void SBuffer::fill(const Band& band) {
     hold(held);
     record_sums(held);
     for (const Memory& m : memory_) {
-        if (m.description.initial) device_.recorder().fill("sbuffer/clear", m.buffer, *m.description.initial);
+        const std::optional<uint32_t>& initial = m.description.initial;
+        if (initial || layout_.poisoned) device_.recorder().fill("sbuffer/clear", m.buffer, initial.value_or(kPoison));
     }
     if (counters_) device_.recorder().fill("sbuffer/clear", counters_, 0);
     const std::vector<Band> parts = this->parts();

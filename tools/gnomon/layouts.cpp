@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `gnomon layouts`: the S-buffer layouts that are built in, and the beginning of another.
-#include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <gnomon/error.hpp>
 #include <memory>
 
+#include "check_layout.hpp"
 #include "command.hpp"
 #include "io/atomic_file.hpp"
 #include "layouts/layout.hpp"
@@ -97,6 +98,28 @@ int make_layout(const NewOptions& options) {
     return kDone;
 }
 
+struct CheckOptions {
+    std::string layout, device, json;
+};
+
+int check(const CheckOptions& options) {
+    Renderer renderer(options.device);
+    log_device(renderer.device(), !options.device.empty());
+    io::Json json = io::document("layout_check");
+    json["layout"] = options.layout;
+    json["checks"] = io::Json::array();
+    int exit_code = kDone;
+    check_layout(renderer, options.layout, [&](const LayoutCheck& check) {
+        if (options.json != "-")
+            print_line(fmt::format("{:<34} {:<7} {}", check.name, check.passed ? "ok" : "failed", check.text));
+        if (!check.passed) spdlog::error("{} failed: {}", check.name, check.text);
+        if (!check.passed) exit_code = kWrongResult;
+        json["checks"].push_back({{"name", check.name}, {"passed", check.passed}, {"text", check.text}});
+    });
+    if (!options.json.empty()) write_json(options.json, json);
+    return exit_code;
+}
+
 }  // namespace
 
 void add_layouts(CLI::App& app, Invocation& invocation) {
@@ -109,10 +132,19 @@ void add_layouts(CLI::App& app, Invocation& invocation) {
     make->add_option("--from", options->from, "A layout's name, or its folder")
         ->type_name("NAME or FOLDER")
         ->capture_default_str();
+    CLI::App* checks =
+        add_command(*command, invocation, "check",
+                    "Compare all that a layout holds with what was put into it; exit code 9 if\nit is not the same");
+    auto check_options = std::make_shared<CheckOptions>();
+    checks->add_option("LAYOUT", check_options->layout, "A layout's name, or its folder")->required();
+    checks->add_option("--device", check_options->device, "Vulkan device, as of gnomon render")->type_name("NAME");
+    checks->add_option("--json", check_options->json, "Write it as JSON; - for stdout, instead of the text")
+        ->type_name("FILE.json");
     command->require_subcommand(0, 1);
-    command->callback([&invocation, make, json, options] {
-        invocation.run = [make, json, options] {
+    command->callback([&invocation, make, checks, json, options, check_options] {
+        invocation.run = [make, checks, json, options, check_options] {
             if (make->parsed()) return make_layout(*options);
+            if (checks->parsed()) return check(*check_options);
             if (!json->empty()) write_json(*json, layouts_json());
             if (*json != "-") print_layouts();
             return static_cast<int>(kDone);

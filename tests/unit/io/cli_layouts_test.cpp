@@ -86,4 +86,68 @@ TEST_F(CliLayoutsTest, LostRangesAreExitCode7) {
     EXPECT_THAT(other.err, HasSubstr("--method exact"));
 }
 
+TEST_F(CliLayoutsTest, Check) {
+    GN_SKIP_WITHOUT_DEVICE(run_gnomon(folder, {"devices"}));
+    const CommandResult right = layouts({"check", "no-depth"});
+    EXPECT_EQ(right.exit_code, 0) << right.err;
+    EXPECT_THAT(right.out, HasSubstr("exact, three lights"));
+    EXPECT_THAT(right.out, Not(HasSubstr("failed")));
+    ASSERT_EQ(layouts({"new", "mine", "--from", "no-depth"}).exit_code, 0);
+    std::string text = content_of(folder / "mine" / "layout.glsl");
+    put_content(folder / "mine" / "layout.glsl", text.replace(text.find("ceil("), 5, "floor("));
+    const CommandResult wrong = layouts({"check", "mine", "--json", "a.json"});
+    EXPECT_EQ(wrong.exit_code, 9);
+    EXPECT_THAT(wrong.err, HasSubstr("exact, sun failed: light 0, texel "));
+    EXPECT_THAT(wrong.err, HasSubstr("ranges; not contained is triangle "));
+    EXPECT_FALSE(json::parse(content_of(folder / "a.json"))["checks"][0]["passed"]);
+    EXPECT_EQ(layouts({"check", "heap"}).exit_code, 2);
+}
+
+// Many times that: with the label long.
+class CliLayoutsCheckTest : public CliLayoutsTest {
+protected:
+    void SetUp() override { GN_SKIP_WITHOUT_DEVICE(run_gnomon(folder, {"devices"})); }
+
+    /// A copy of a layout with something in it replaced.
+    void mistake(const std::string& layout, const std::string& file, const std::string& from, const std::string& to) {
+        std::filesystem::remove_all(folder / "mine");
+        ASSERT_EQ(layouts({"new", "mine", "--from", layout}).exit_code, 0);
+        std::string text = content_of(folder / "mine" / file);
+        ASSERT_THAT(text, HasSubstr(from));
+        put_content(folder / "mine" / file, text.replace(text.find(from), from.size(), to));
+    }
+};
+
+TEST_F(CliLayoutsCheckTest, PassesWhatIsRight) {
+    for (const char* layout : {"paged", "no-depth", "fixed"}) {
+        const CommandResult result = layouts({"check", layout});
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_THAT(result.out, Not(HasSubstr("failed")));
+        EXPECT_THAT(result.out, HasSubstr("exact, three lights"));
+    }
+}
+
+TEST_F(CliLayoutsCheckTest, NamesWhatIsWrong) {
+    const struct {
+        const char *layout, *file, *from, *to, *what;
+    } mistakes[] = {
+        {"array", "layout.glsl", "return it.x < it.y;", "return it.x + 1u < it.y;", "ranges; lost is triangle "},
+        {"array", "layout.glsl", "range.enter, range.leave", "range.leave, range.enter", "ranges; there is none of triangle "},
+        {"linked", "layout.json", ", \"initial\": \"none\"", "", "light 0, texel "},
+        {"paged", "layout.glsl", "- 1u, page)", ", page)", "light 0, texel "},
+        {"sorted-depth", "layout.glsl", "!(nearest_of(range, exit_depth) < query.limit)", "range.z > 0.5 * query.limit",
+         "pixel "},
+        {"no-depth", "layout.glsl", "ceil(", "floor(", "ranges; not contained is triangle "},
+        {"fixed", "layout.glsl", "count_lost(cursor - K)", "count_lost(1u)", "are lost, and "},
+    };
+    for (const auto& m : mistakes) {
+        SCOPED_TRACE(std::string(m.layout) + ": " + m.to);
+        mistake(m.layout, m.file, m.from, m.to);
+        const CommandResult result = layouts({"check", "mine"});
+        EXPECT_EQ(result.exit_code, 9);
+        EXPECT_THAT(result.err, HasSubstr(" failed: "));
+        EXPECT_THAT(result.err, HasSubstr(m.what));
+    }
+}
+
 }  // namespace gnomon::test
