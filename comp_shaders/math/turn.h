@@ -8,10 +8,11 @@ GN_BEGIN
 // sin(s * angle) / angle, to 6e-8 where s * angle is from 0 to pi / 2: its series.
 GN_FN float sine_share(float s, float angle) {
     float y = s * angle * (s * angle);
-    return s *
-           (1.0f - y * (1.0f / 6.0f) *
-                       (1.0f - y * (1.0f / 20.0f) *
-                                   (1.0f - y * (1.0f / 42.0f) * (1.0f - y * (1.0f / 72.0f) * (1.0f - y * (1.0f / 110.0f))))));
+    float p = 1.0f - y * (1.0f / 110.0f);
+    p = 1.0f - y * (1.0f / 72.0f) * p;
+    p = 1.0f - y * (1.0f / 42.0f) * p;
+    p = 1.0f - y * (1.0f / 20.0f) * p;
+    return s * (1.0f - y * (1.0f / 6.0f) * p);
 }
 
 // Spherical interpolation of unit quaternions (x, y, z, w) that are `angle` apart, from 0 to pi / 2; s from 0 to 1.
