@@ -131,7 +131,7 @@ std::string with_window(std::string file, int32_t last_x, int32_t last_y) {
 TEST_F(ExrTest, AttributesThatAreLongerThanTheFileAreErrorsBeforeMemoryIsTaken) {
     io::write_exr(folder / "a.exr", 1, 1, std::vector{Channel{"R", {1.0f}}}, {{"note", "text"}});
     const std::string whole = content_of(folder / "a.exr");
-    for (const std::string name : {std::string("note\0string\0", 12), std::string("dataWindow\0box2i\0", 17)}) {
+    for (const std::string& name : {std::string("note\0string\0", 12), std::string("dataWindow\0box2i\0", 17)}) {
         for (const uint32_t bytes : {uint32_t(whole.size()), 0x7fffffffu, 0xffffffffu}) {
             std::string file = whole;
             std::memcpy(file.data() + file.find(name) + name.size(), &bytes, 4);
