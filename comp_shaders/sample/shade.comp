@@ -10,6 +10,7 @@
 #include "shared/film.h"
 #include "shared/light.h"
 #include "math/range.h"
+#include "math/turn.h"
 #include "math/unit_size.h"
 
 layout(local_size_x = 64) in;
@@ -51,17 +52,6 @@ vec3 normal_at(uint vertex, Receiver h) {
     return mix(fetch_normals(i).xyz, fetch_normals(i + params.grid.vertex_stride).xyz, h.local_time);
 }
 
-// Shortest spherical interpolation of unit quaternions (x, y, z, w).
-vec4 slerp(vec4 a, vec4 b, float s) {
-    float c = dot(a, b);
-    b = c < 0.0 ? -b : b;
-    float angle = acos(clamp(abs(c), 0.0, 1.0));
-    float sine = sin(angle);
-    bool close = sine < 1e-4;
-    vec4 q = close ? mix(a, b, s) : (a * sin((1.0 - s) * angle) + b * sin(s * angle)) / sine;
-    return normalize(q);
-}
-
 // -Z of a frame turned by the quaternion.
 vec3 forward_of(vec4 q) {
     return -vec3(2.0 * (q.x * q.z + q.w * q.y), 2.0 * (q.y * q.z - q.w * q.x), 1.0 - 2.0 * (q.x * q.x + q.y * q.y));
@@ -73,11 +63,12 @@ vec3 incoming(uint light, Receiver h, vec3 position, vec3 normal) {
     vec4 color_kind = fetch_lights(head);
     vec4 cone = fetch_lights(head + 1u);
     uint key = light_key(light, h.segment, params.key_count);
-    vec3 origin = fetch_lights(key).xyz;
+    vec4 place = fetch_lights(key);
+    vec3 origin = place.xyz;
     vec4 rotation = fetch_lights(key + 1u);
     if (kLightsMove) {
         origin = mix(origin, fetch_lights(key + 2u).xyz, h.local_time);
-        rotation = slerp(rotation, fetch_lights(key + 3u), h.local_time);
+        rotation = turn_between(rotation, fetch_lights(key + 3u), place.w, h.local_time);
     }
     vec3 axis = forward_of(rotation);
     bool spot = floatBitsToUint(color_kind.w) == kLightSpot;

@@ -5,8 +5,9 @@
 #include "lang.h"
 GN_BEGIN
 
-// Words of a record (vec4 each): colour times intensity and kind; cone scale, cone offset, range; then position and rotation
-// (quaternion x y z w) for each key. A point light is a spot whose cone is everything, and does not turn.
+// Words of a record (vec4 each): colour times intensity and kind; cone scale, cone offset, range; then for each key the
+// position with the angle between its rotation and the next key's (radians, as quaternions), and the rotation (quaternion x y z
+// w). A point light is a spot whose cone is everything, and does not turn.
 const uint kLightHead = 2u;
 const uint kLightPerKey = 2u;
 const uint kLightDirectional = 0u;

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cassert>
@@ -69,6 +70,9 @@ fs::path resolve(fs::path path) {
     }
     return path;
 }
+
+// A signal waits for a call that writes, or that waits for the disk, to return: most bytes of one.
+constexpr size_t kMostAtOnce_bytes = size_t{16} << 20;
 
 constexpr std::string_view kPrefix = ".gnomon-", kSuffix = ".tmp";
 
@@ -200,16 +204,24 @@ void AtomicFile::remove() {
 
 void AtomicFile::write(std::span<const std::byte> data) {
     while (!data.empty()) {
-        const ssize_t written = ::pwrite(descriptor_, data.data(), data.size(), static_cast<off_t>(position_));
+        const ssize_t written =
+            ::pwrite(descriptor_, data.data(), std::min(data.size(), kMostAtOnce_bytes), static_cast<off_t>(position_));
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) fail(errno);
         position_ += static_cast<uint64_t>(written);
+        bytes_ = std::max(bytes_, position_);
         data = data.subspan(static_cast<size_t>(written));
     }
 }
 
 void AtomicFile::commit() {
     if (error_ != 0) fail(error_);
+    // fsync() finds little to do then.
+    for (uint64_t at = 0; at < bytes_; at += kMostAtOnce_bytes) {
+        const unsigned flags = SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE | SYNC_FILE_RANGE_WAIT_AFTER;
+        const bool synced = ::sync_file_range(descriptor_, static_cast<off_t>(at), kMostAtOnce_bytes, flags) == 0;
+        if (!synced && errno != ENOSYS) fail(errno);
+    }
     if (::fsync(descriptor_) != 0) fail(errno);
     if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail(errno);
     forget_unfinished(temporary_.c_str());

@@ -40,6 +40,7 @@ private:
     int descriptor_ = -1;
     int error_ = 0;  // Of the first write that failed: a caller in between may have swallowed the exception.
     uint64_t position_ = 0;
+    uint64_t bytes_ = 0;  // Of the file so far.
 };
 
 /// From now on signals that end the process by default, as SIGQUIT or SIGXCPU, remove the temporary files first. SIGINT and

@@ -36,7 +36,7 @@ TEST_P(Interrupts, EndWithinHalfASecond) {
     constexpr double kLongest = 0.5;
     std::mt19937 random(1);
     std::vector<double> delays;
-    for (size_t i = 0; i < trials(2); ++i) {
+    for (size_t i = 0; i < trials(3); ++i) {
         Clock::time_point interrupted;
         const auto interrupt = [&](int child) {
             std::this_thread::sleep_for(Seconds(std::uniform_real_distribution(0.05, GetParam().longest)(random)));

@@ -101,7 +101,7 @@ std::array<KnownChannel, 6> known_channels() {
             KnownChannel{"visibility.0", true, {0.0, 1.0, 0.0, 1.0}}};
 }
 
-const std::vector<float>& values_of(const Frame& frame, const std::string& name) {
+const std::vector<float>& values_of(const Frame& frame, const char* name) {
     return std::find_if(frame.channels.begin(), frame.channels.end(), [&](const Channel& c) { return c.name == name; })->values;
 }
 

@@ -7,9 +7,9 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
-#include <fstream>
 #include <gnomon/error.hpp>
 
+#include "io/atomic_file.hpp"
 #include "png.hpp"
 
 namespace gnomon::makers {
@@ -66,20 +66,6 @@ std::string uri_of(const std::string& file_name) {
         }
     }
     return uri;
-}
-
-void write_file(const std::filesystem::path& path, std::string_view bytes) {
-    const std::filesystem::path temporary = path.string() + ".part";
-    std::ofstream file(temporary, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    std::error_code failed;
-    if (file) std::filesystem::rename(temporary, path, failed);
-    if (!file || failed) {
-        std::error_code ignored;
-        std::filesystem::remove(temporary, ignored);
-        throw Error(ErrorKind::input, "cannot write the scene", path.string(), "check that the folder exists and has space");
-    }
 }
 
 std::string_view text_of(const std::vector<uint8_t>& bytes) {
@@ -299,8 +285,8 @@ void GltfWriter::write(const std::filesystem::path& path) const {
     if (!binary) {
         const std::filesystem::path buffer_path = std::filesystem::path(path).replace_extension(".bin");
         document["buffers"][0]["uri"] = uri_of(buffer_path.filename().string());
-        write_file(buffer_path, text_of(buffer));
-        write_file(path, document.dump(1) + "\n");
+        io::write_file(buffer_path, text_of(buffer));
+        io::write_file(path, document.dump(1) + "\n");
         return;
     }
     std::string text = document.dump();
@@ -319,7 +305,7 @@ void GltfWriter::write(const std::filesystem::path& path) const {
     put(buffer.size());
     put(0x004e4942);  // "BIN"
     append_aligned(file, buffer.data(), buffer.size());
-    write_file(path, text_of(file));
+    io::write_file(path, text_of(file));
 }
 
 }  // namespace gnomon::makers

@@ -1,207 +1,148 @@
 // SPDX-License-Identifier: Apache-2.0
 // make_scenes: the scene makers as a command.
-#include <charconv>
-#include <cstdio>
-#include <exception>
+#include <CLI/CLI.hpp>
 #include <functional>
 #include <gnomon/error.hpp>
-#include <map>
+#include <gnomon/version.hpp>
+#include <memory>
 #include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "scene_makers.hpp"
+#include "tool_main.hpp"
 
 namespace {
 
-using gnomon::Error;
-using gnomon::ErrorKind;
-namespace makers = gnomon::makers;
+using namespace gnomon;
+using namespace gnomon::makers;
+using Path = std::filesystem::path;
 
-constexpr const char* kHelp =
-    R"(make_scenes SCENE -o FILE [options]    writes one scene as .gltf (with a .bin beside it) or .glb
-make_scenes all -o FOLDER              writes the scenes of the scenes folder
-
-  figure         --triangles N (12000)  --fill-light yes|no (yes)
-  character      --triangles N of the figure (70000)  --fill-light yes|no (no)
-  runner         --triangles N (262000)  --fill-light yes|no (no)
-  wrecking-ball  --triangles N (8000)  --fill-light yes|no (no)
-  tree           --leaves N (12000)  --seed S (0)  --sway RADIANS (0)  --fill-light yes|no (no)
-  octopus        --triangles N (200000)  --seed S (0)  --fill-light yes|no (no)
-  chess          --triangles N (160000)  --moving PIECES (9)  --seed S (0)  --fill-light yes|no (no)
-  two-cubes      --triangles N of each cube (6000)  --ground METRES (28)
-  random-cubes   --count N (2000)  --seed S (0)  --size METRES (1)  --speed MIN:MAX metres per shutter (4:8)
-                 --height METRES of their space (0: by number, size and speed)  --ground HEIGHTS (4)  --times FACTOR on the speed, in the same space (1)
-  pillars        --columns N (7)  --rising yes|no (no)
-  crossing-quads
-  receding-quads
-  tube           --triangles N (70000)  --pixels P (10)  --ground METRES (8)
-  stadium        --triangles N of the body (30000)  --motion METRES per shutter (0.3)
-)";
-
-template <class T>
-T number(const std::string& option, std::string_view text) {
-    T value{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size()) {
-        throw Error(ErrorKind::usage, "not a number: '" + std::string(text) + "'", option, "see make_scenes --help");
-    }
-    return value;
-}
-
-/// The options after the scene's name; each may be taken once, and all must be.
-class Options {
-public:
-    Options(int count, char** arguments) {
-        for (int i = 2; i < count; ++i) {
-            std::string name = arguments[i], value;
-            const std::size_t equals = name.find('=');
-            if (name.rfind("--", 0) == 0 && equals != std::string::npos) {
-                value = name.substr(equals + 1);
-                name.resize(equals);
-            } else if (++i < count) {
-                value = arguments[i];
-            } else {
-                throw Error(ErrorKind::usage, "value missing", name, "see make_scenes --help");
-            }
-            values_[name] = value;
-        }
-    }
-
-    template <class T>
-    void take(const std::string& name, T& into) {
-        if (const auto text = take_text(name); !text.empty()) into = number<T>(name, text);
-    }
-    std::string take_text(const std::string& name) {
-        const auto node = values_.extract(name);
-        return node ? node.mapped() : std::string{};
-    }
-    void take_yes(const std::string& name, bool& into) {
-        const std::string text = take_text(name);
-        if (text.empty()) return;
-        if (text != "yes" && text != "no") throw Error(ErrorKind::usage, "not yes or no: '" + text + "'", name, "");
-        into = text == "yes";
-    }
-    void require_empty() const {
-        if (values_.empty()) return;
-        throw Error(ErrorKind::usage, "unknown option for this scene", values_.begin()->first, "see make_scenes --help");
-    }
-
-private:
-    std::map<std::string, std::string> values_;
+struct Options {
+    Path output;
+    std::function<void()> make;  ///< The scene that is named.
 };
 
-void run(const std::string& scene, Options options) {
-    const std::string output = options.take_text("-o");
-    if (output.empty())
-        throw Error(ErrorKind::usage, "no output named", "-o", "give a .gltf or .glb file, or a folder for 'all'");
-    std::function<void()> make;
-    if (scene == "figure") {
-        makers::FigureOptions o;
-        options.take("--triangles", o.triangles);
-        options.take_yes("--fill-light", o.fill_light);
-        make = [=] { makers::make_figure(output, o); };
-    } else if (scene == "character") {
-        makers::CharacterOptions o;
-        options.take("--triangles", o.triangles);
-        options.take_yes("--fill-light", o.fill_light);
-        make = [=] { makers::make_character(output, o); };
-    } else if (scene == "runner") {
-        makers::RunnerOptions o;
-        options.take("--triangles", o.triangles);
-        options.take_yes("--fill-light", o.fill_light);
-        make = [=] { makers::make_runner(output, o); };
-    } else if (scene == "wrecking-ball") {
-        makers::WreckingBallOptions o;
-        options.take("--triangles", o.triangles);
-        options.take_yes("--fill-light", o.fill_light);
-        make = [=] { makers::make_wrecking_ball(output, o); };
-    } else if (scene == "tree") {
-        makers::TreeOptions o;
-        options.take("--leaves", o.leaves);
-        options.take("--seed", o.seed);
-        options.take("--sway", o.sway);
-        options.take_yes("--fill-light", o.fill_light);
-        make = [=] { makers::make_tree(output, o); };
-    } else if (scene == "octopus") {
-        makers::OctopusOptions o;
-        options.take("--triangles", o.triangles);
-        options.take("--seed", o.seed);
-        options.take_yes("--fill-light", o.fill_light);
-        make = [=] { makers::make_octopus(output, o); };
-    } else if (scene == "chess") {
-        makers::ChessOptions o;
-        options.take("--triangles", o.triangles);
-        options.take("--moving", o.moving);
-        options.take("--seed", o.seed);
-        options.take_yes("--fill-light", o.fill_light);
-        make = [=] { makers::make_chess(output, o); };
-    } else if (scene == "two-cubes") {
-        makers::TwoCubesOptions o;
-        options.take("--triangles", o.triangles);
-        options.take("--ground", o.ground);
-        make = [=] { makers::make_two_cubes(output, o); };
-    } else if (scene == "random-cubes") {
-        makers::RandomCubesOptions o;
-        options.take("--count", o.count);
-        options.take("--seed", o.seed);
-        options.take("--size", o.size);
-        options.take("--height", o.height);
-        options.take("--ground", o.ground);
-        options.take("--times", o.times);
-        if (const std::string speed = options.take_text("--speed"); !speed.empty()) {
-            const std::size_t colon = speed.find(':');
-            if (colon == std::string::npos) throw Error(ErrorKind::usage, "not MIN:MAX: '" + speed + "'", "--speed", "");
-            o.speed_min = number<double>("--speed", std::string_view(speed).substr(0, colon));
-            o.speed_max = number<double>("--speed", std::string_view(speed).substr(colon + 1));
-        }
-        make = [=] { makers::make_random_cubes(output, o); };
-    } else if (scene == "pillars") {
-        makers::PillarsOptions o;
-        options.take("--columns", o.columns);
-        options.take_yes("--rising", o.rising);
-        make = [=] { makers::make_pillars(output, o); };
-    } else if (scene == "crossing-quads") {
-        make = [=] { makers::make_crossing_quads(output); };
-    } else if (scene == "receding-quads") {
-        make = [=] { makers::make_receding_quads(output); };
-    } else if (scene == "tube") {
-        makers::TubeOptions o;
-        options.take("--triangles", o.triangles);
-        options.take("--pixels", o.pixels);
-        options.take("--ground", o.ground);
-        make = [=] { makers::make_tube(output, o); };
-    } else if (scene == "stadium") {
-        makers::StadiumOptions o;
-        options.take("--triangles", o.triangles);
-        options.take("--motion", o.motion);
-        make = [=] { makers::make_stadium(output, o); };
-    } else if (scene == "all") {
-        make = [=] { makers::make_all(output); };
-    } else {
-        throw Error(ErrorKind::usage, "unknown scene", scene, "see make_scenes --help");
+CLI::App* add_command(CLI::App& app, Options& options, const char* name, const char* description,
+                      std::function<void(const Path&)> make) {
+    CLI::App* command = app.add_subcommand(name, description);
+    command->add_option("-o,--output", options.output, "FILE.gltf, with a .bin beside it, or FILE.glb; of 'all' a folder")
+        ->required()
+        ->type_name("FILE");
+    command->callback([&options, make = std::move(make)] { options.make = [&options, make] { make(options.output); }; });
+    return command;
+}
+
+/// The command of a scene. Its options are members of `Values`, and say what they are there.
+template <class Values>
+class Scene {
+public:
+    Scene(CLI::App& app, Options& options, const char* name, const char* description, void (*make)(const Path&, const Values&))
+        : command_(add_command(app, options, name, description,
+                               [values = values_, make](const Path& path) { make(path, *values); })) {}
+
+    template <class Number>
+    Scene& add(const char* option, Number Values::*value, const char* type, const char* description) {
+        command_->add_option(option, (*values_).*value, description)->type_name(type)->capture_default_str();
+        return *this;
     }
-    options.require_empty();
-    make();
+    Scene& add(const char* option, bool Values::*value, const char* description) {
+        command_->add_option(option, (*values_).*value, description)
+            ->type_name("yes|no")
+            ->check(CLI::IsMember({"yes", "no"}).description(""))
+            ->default_str((*values_).*value ? "yes" : "no");
+        return *this;
+    }
+    Scene& add_speed() {
+        command_
+            ->add_option_function<std::vector<double>>(
+                "--speed",
+                [values = values_](const std::vector<double>& range) {
+                    values->speed_min = range[0];
+                    values->speed_max = range[1];
+                },
+                "Metres in a shutter")
+            ->delimiter(':')
+            ->expected(2)
+            ->type_name("MIN:MAX")
+            ->default_str("4:8");
+        return *this;
+    }
+
+    Scene& add_triangles(const char* of) { return add("--triangles", &Values::triangles, "N", of); }
+    Scene& add_seed() { return add("--seed", &Values::seed, "S", "Same seed, same bytes"); }
+    Scene& add_ground() { return add("--ground", &Values::ground, "METRES", "Side of the ground"); }
+    Scene& add_fill_light() { return add("--fill-light", &Values::fill_light, "A second, weak light"); }
+
+private:
+    std::shared_ptr<Values> values_ = std::make_shared<Values>();
+    CLI::App* command_;
+};
+
+void add_options(CLI::App& app, Options& o) {
+    app.set_version_flag("--version", "gnomon " GNOMON_VERSION);
+    app.set_help_flag();
+    app.set_help_all_flag("-h,--help", "Print this help");  // That of all scenes.
+    app.require_subcommand(0, 1);                           // None is an error below: CLI11 would not name an unknown one.
+
+    add_command(app, o, "all", "The scenes of the scenes folder", make_all);
+    Scene(app, o, "figure", "A figure that walks through a studio", make_figure)
+        .add_triangles("Of the whole scene")
+        .add_fill_light();
+    Scene(app, o, "character", "A figure that kicks", make_character).add_triangles("Of the figure").add_fill_light();
+    Scene(app, o, "runner", "A figure that runs through a hall", make_runner)
+        .add_triangles("Of the whole scene")
+        .add_fill_light();
+    Scene(app, o, "wrecking-ball", "A ball on a chain and a wooden doll", make_wrecking_ball)
+        .add_triangles("Of the whole scene")
+        .add_fill_light();
+    Scene(app, o, "tree", "A tree under a light that flies past it", make_tree)
+        .add("--leaves", &TreeOptions::leaves, "N", "Of two triangles each")
+        .add_seed()
+        .add("--sway", &TreeOptions::sway, "RADIANS", "How far the limbs turn to and fro")
+        .add_fill_light();
+    Scene(app, o, "octopus", "An octopus that moves its arms", make_octopus)
+        .add_triangles("Of the octopus")
+        .add_seed()
+        .add_fill_light();
+    Scene(app, o, "chess", "Chess pieces, some of which fly up", make_chess)
+        .add_triangles("Of all pieces")
+        .add("--moving", &ChessOptions::moving, "PIECES", "How many fly up")
+        .add_seed()
+        .add_fill_light();
+    Scene(app, o, "two-cubes", "Two cubes that fly toward the light", make_two_cubes)
+        .add_triangles("Of each cube")
+        .add_ground();
+    Scene(app, o, "random-cubes", "Cubes that move and turn in random directions", make_random_cubes)
+        .add("--count", &RandomCubesOptions::count, "N", "Of cubes")
+        .add_seed()
+        .add("--size", &RandomCubesOptions::size, "METRES", "Side of a cube")
+        .add_speed()
+        .add("--height", &RandomCubesOptions::height, "METRES", "Of their space; 0: by number, size and speed")
+        .add("--ground", &RandomCubesOptions::ground, "HEIGHTS", "Side of the ground, in heights of their space")
+        .add("--times", &RandomCubesOptions::times, "FACTOR", "On the speed, in the same space");
+    Scene(app, o, "pillars", "Pillars below a spot light that moves", make_pillars)
+        .add("--columns", &PillarsOptions::columns, "N", "Along each side")
+        .add("--rising", &PillarsOptions::rising, "The light flies up and away");
+    add_command(app, o, "crossing-quads", "Two quads that fly past each other", make_crossing_quads);
+    add_command(app, o, "receding-quads", "Two quads that rise and sink", make_receding_quads);
+    Scene(app, o, "tube", "A tube that rises and bends", make_tube)
+        .add_triangles("Of the tube")
+        .add("--pixels", &TubeOptions::pixels, "P", "Its motion in a picture of 1024x768, on average")
+        .add_ground();
+    Scene(app, o, "stadium", "A small vase on a wide ground", make_stadium)
+        .add_triangles("Of the vase")
+        .add("--motion", &StadiumOptions::motion, "METRES", "In a shutter");
+}
+
+void run(const Options& options) {
+    if (!options.make) throw Error(ErrorKind::usage, "no scene given", "command line", "see 'make_scenes --help'");
+    options.make();
 }
 
 }  // namespace
 
-int main(int count, char** arguments) {
-    const std::string scene = count > 1 ? arguments[1] : "--help";
-    if (scene == "--help" || scene == "-h") {
-        std::fputs(kHelp, stdout);
-        return count > 1 ? 0 : static_cast<int>(ErrorKind::usage);
-    }
-    try {
-        run(scene, Options(count, arguments));
-        return 0;
-    } catch (const Error& error) {
-        std::fprintf(stderr, "make_scenes: error: %s\n", error.what());
-        return error.exit_code();
-    } catch (const std::exception& error) {
-        std::fprintf(stderr, "make_scenes: error: %s\n", error.what());
-        return static_cast<int>(ErrorKind::internal);
-    }
+int main(int argc, char** argv) {
+    constexpr tools::Tool kTool{"make_scenes", "Writes one scene as .gltf (with a .bin beside it) or .glb.",
+                                "make a smaller scene"};
+    return tools::tool_main(kTool, argc, argv, add_options, run);
 }

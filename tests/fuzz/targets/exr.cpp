@@ -13,7 +13,7 @@ namespace {
 
 // Pictures with longer sides say nothing new, and take long.
 bool is_small(const uint8_t* data, size_t bytes) {
-    constexpr int64_t kMostSide = 2048;
+    constexpr int64_t kMostSide = 256;
     constexpr std::string_view kName("dataWindow\0box2i\0\x10\0\0\0", 21);
     const std::string_view text(reinterpret_cast<const char*>(data), bytes);
     const size_t at = text.find(kName);

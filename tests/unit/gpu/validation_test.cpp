@@ -34,5 +34,23 @@ TEST(Validation, AMissingBarrierIsSeen) {
     });
 }
 
+// What it says of itself, where it was kept from working for a while, is none of gnomon's mistakes.
+TEST(Validation, ItsOwnTimeoutsAreNotTaken) {
+    const Instance instance(true);
+    const auto submit = reinterpret_cast<PFN_vkSubmitDebugUtilsMessageEXT>(
+        vkGetInstanceProcAddr(instance.handle, "vkSubmitDebugUtilsMessageEXT"));
+    const auto say = [&](const char* name) {
+        const VkDebugUtilsMessengerCallbackDataEXT data{
+            .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CALLBACK_DATA_EXT, .pMessageIdName = name, .pMessage = name};
+        submit(instance.handle, VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT, VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+               &data);
+    };
+    say("INTERNAL-ERROR-VkFence-state-timeout");
+    say("UNASSIGNED-VkQueue-state-timeout");
+    EXPECT_THAT(instance.messages, testing::IsEmpty());
+    say("VUID-vkQueueSubmit");
+    EXPECT_THAT(instance.messages, testing::ElementsAre("VUID-vkQueueSubmit"));
+}
+
 }  // namespace
 }  // namespace gnomon::gpu

@@ -2,17 +2,41 @@
 // Output files: whole or absent, and errors that say why.
 #include "io/atomic_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <new>
 
 #include "test_folder.hpp"
 #include "throws.hpp"
+
+namespace {
+
+// Of one call.
+size_t most_written = 0, most_synced = 0;
+
+}  // namespace
+
+// In place of libc's.
+extern "C" {
+
+ssize_t pwrite(int descriptor, const void* data, size_t bytes, off_t at) {
+    most_written = std::max(most_written, bytes);
+    return syscall(SYS_pwrite64, descriptor, data, bytes, at);
+}
+
+int sync_file_range(int descriptor, off_t at, off_t bytes, unsigned flags) {
+    most_synced = std::max(most_synced, static_cast<size_t>(bytes));
+    return static_cast<int>(syscall(SYS_sync_file_range, descriptor, at, bytes, flags));
+}
+}
 
 namespace gnomon::test {
 
@@ -250,6 +274,19 @@ TEST_F(AtomicFileTest, CommitRemembersAFailedWriteThatACallerSwallowed) {
     file.write(bytes_of("fits"));
     EXPECT_THROW(file.commit(), Error);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.txt"));
+}
+
+TEST_F(AtomicFileTest, NoCallTakesLongerThanASignalMayWait) {
+    constexpr size_t kMost_bytes = size_t{32} << 20;
+    std::string content(2 * kMost_bytes, 'x');
+    content.back() = 'y';
+    most_written = most_synced = 0;
+    io::write_file(folder / "a.txt", content);
+    EXPECT_TRUE(content_of(folder / "a.txt") == content);
+    EXPECT_GT(most_written, 0u);
+    EXPECT_LE(most_written, kMost_bytes);
+    EXPECT_GT(most_synced, 0u);
+    EXPECT_LE(most_synced, kMost_bytes);
 }
 
 TEST_F(AtomicFileTest, CheckWritableSaysWhatIsWrongAndLeavesNothing) {

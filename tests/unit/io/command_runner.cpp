@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the built command and keeps what it says.
+// Runs the built commands and keeps what it says.
 #include "command_runner.hpp"
 
 #include <fcntl.h>
@@ -14,11 +14,12 @@
 
 namespace gnomon::test {
 
-CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
-                         const std::function<void()>& prepare, const std::function<void(int)>& while_running) {
+CommandResult run_command(const std::string& command, const std::filesystem::path& folder,
+                          const std::vector<std::string>& arguments, const std::function<void()>& prepare,
+                          const std::function<void(int)>& while_running) {
     const std::filesystem::path out = folder / ".stdout";
     const std::filesystem::path err = folder / ".stderr";
-    std::vector<std::string> words = {GN_PATH(GNOMON_COMMAND)};
+    std::vector<std::string> words = {command};
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) argv.push_back(word.data());
@@ -46,6 +47,11 @@ CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<
     std::filesystem::remove(out);
     std::filesystem::remove(err);
     return result;
+}
+
+CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
+                         const std::function<void()>& prepare, const std::function<void(int)>& while_running) {
+    return run_command(GN_PATH(GNOMON_COMMAND), folder, arguments, prepare, while_running);
 }
 
 bool device_is_required() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs the built command and keeps what it says.
+// Runs the built commands and keeps what it says.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,13 @@ struct CommandResult {
     std::string err;
 };
 
-/// Run `gnomon` with these arguments in a folder, stdout and stderr going to files. `prepare` runs in the child before the
+/// Run a command with these arguments in a folder, stdout and stderr going to files. `prepare` runs in the child before the
 /// command does; `while_running` here, with the child's process id.
+CommandResult run_command(const std::string& command, const std::filesystem::path& folder,
+                          const std::vector<std::string>& arguments, const std::function<void()>& prepare = {},
+                          const std::function<void(int)>& while_running = {});
+
+/// The same of `gnomon`.
 CommandResult run_gnomon(const std::filesystem::path& folder, const std::vector<std::string>& arguments,
                          const std::function<void()>& prepare = {}, const std::function<void(int)>& while_running = {});
 

@@ -128,6 +128,32 @@ std::string with_window(std::string file, int32_t last_x, int32_t last_y) {
     return file;
 }
 
+TEST_F(ExrTest, AttributesThatAreLongerThanTheFileAreErrorsBeforeMemoryIsTaken) {
+    io::write_exr(folder / "a.exr", 1, 1, std::vector{Channel{"R", {1.0f}}}, {{"note", "text"}});
+    const std::string whole = content_of(folder / "a.exr");
+    for (const std::string& name : {std::string("note\0string\0", 12), std::string("dataWindow\0box2i\0", 17)}) {
+        for (const uint32_t bytes : {uint32_t(whole.size()), 0x7fffffffu, 0xffffffffu}) {
+            std::string file = whole;
+            std::memcpy(file.data() + file.find(name) + name.size(), &bytes, 4);
+            put_content(folder / "a.exr", file);
+            EXPECT_GNOMON_ERROR(io::read_exr(folder / "a.exr"), ErrorKind::input, "promises more than the file holds");
+        }
+    }
+    // A list of channels is read to its end: what says that it is shorter hides what comes next.
+    std::string shorter = whole;
+    --shorter[shorter.find(std::string("chlist\0", 7)) + 7];
+    put_content(folder / "a.exr", shorter);
+    EXPECT_GNOMON_ERROR(io::read_exr(folder / "a.exr"), ErrorKind::input, "not as long as it says");
+    // In the header of a later part, too.
+    std::string parts = whole;
+    parts[5] |= 0x10;
+    const size_t end = parts.find(std::string("screenWindowWidth\0float\0", 24)) + 24 + 8;
+    ASSERT_EQ(parts[end], '\0');
+    parts.insert(end + 1, std::string("note\0string\0\xff\xff\xff\x7f", 16));
+    put_content(folder / "a.exr", parts);
+    EXPECT_GNOMON_ERROR(io::read_exr(folder / "a.exr"), ErrorKind::input, "promises more than the file holds");
+}
+
 TEST_F(ExrTest, HeadersThatPromiseTooMuchAreErrorsBeforeMemoryIsTaken) {
     // Noise, so that the file could be that of a larger image by its size.
     Channel noise{"R", {}};
