@@ -94,7 +94,7 @@ TEST_F(CliLayoutsTest, Check) {
     EXPECT_THAT(right.out, Not(HasSubstr("failed")));
     ASSERT_EQ(layouts({"new", "mine", "--from", "no-depth"}).exit_code, 0);
     std::string text = content_of(folder / "mine" / "layout.glsl");
-    put_content(folder / "mine" / "layout.glsl", text.replace(text.find("ceil("), 5, "floor("));
+    put_content(folder / "mine" / "layout.glsl", text.replace(text.find("ceil("), 5, "floor(-2.0 + "));
     const CommandResult wrong = layouts({"check", "mine", "--json", "a.json"});
     EXPECT_EQ(wrong.exit_code, 9);
     EXPECT_THAT(wrong.err, HasSubstr("exact, sun failed: light 0, texel "));
@@ -137,7 +137,7 @@ TEST_F(CliLayoutsCheckTest, NamesWhatIsWrong) {
         {"paged", "layout.glsl", "- 1u, page)", ", page)", "light 0, texel "},
         {"sorted-depth", "layout.glsl", "!(nearest_of(range, exit_depth) < query.limit)", "range.z > 0.5 * query.limit",
          "pixel "},
-        {"no-depth", "layout.glsl", "ceil(", "floor(", "ranges; not contained is triangle "},
+        {"no-depth", "layout.glsl", "ceil(", "floor(-2.0 + ", "ranges; not contained is triangle "},
         {"fixed", "layout.glsl", "count_lost(cursor - K)", "count_lost(1u)", "are lost, and "},
     };
     for (const auto& m : mistakes) {
