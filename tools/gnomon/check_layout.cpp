@@ -185,6 +185,8 @@ LayoutCheck run(Renderer& renderer, const Layout& layout, const std::string& nam
         const std::string wrong = compare_frames(layout, frame, exact);
         if (!wrong.empty()) return {trial.name, false, wrong};
     } catch (const Error& error) {
+        // Ranges where there can be none.
+        if (error.kind() == ErrorKind::internal) return {trial.name, false, error.what()};
         // Only who says so may need all of it.
         if (error.kind() != ErrorKind::out_of_memory || !banded) throw;
         return {trial.name, !layout.bands, error.what()};

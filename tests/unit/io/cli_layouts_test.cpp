@@ -133,7 +133,7 @@ TEST_F(CliLayoutsCheckTest, NamesWhatIsWrong) {
     } mistakes[] = {
         {"array", "layout.glsl", "return it.x < it.y;", "return it.x + 1u < it.y;", "ranges; lost is triangle "},
         {"array", "layout.glsl", "range.enter, range.leave", "range.leave, range.enter", "ranges; there is none of triangle "},
-        {"linked", "layout.json", ", \"initial\": \"none\"", "", "light 0, texel "},
+        {"linked", "layout.json", ", \"initial\": \"none\"", "", "texels outside of a light's view have ranges"},
         {"paged", "layout.glsl", "- 1u, page)", ", page)", "light 0, texel "},
         {"sorted-depth", "layout.glsl", "!(nearest_of(range, exit_depth) < query.limit)", "range.z > 0.5 * query.limit",
          "pixel "},
