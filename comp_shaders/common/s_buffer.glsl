@@ -26,10 +26,6 @@ struct Query {
     bool all;
 };
 
-#ifdef LAYOUT_WRITE
-// What one dispatch writes is a part of the band.
-uint part_first_tile() { return params.item_first - params.band_first; }
-#endif
 #include "layout_interface.glsl"
 
 List list_at(uint tile, uint texel) {

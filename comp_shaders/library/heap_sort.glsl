@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sorts a list in memory, the least key first. Needs: float sort_key(uint place), void sort_swap(uint a, uint b)
+// Sorts a list in memory, the least key first. Needs: library/range_vec4.glsl, float sort_key(uint place)
 // An invocation may go round loops 65,535 times in all on some drivers: longer lists stay as they are.
 const uint kMostSorted = 1500u;
+
+void sort_swap(uint a, uint b) {
+    Range range_a = fetch_range(a), range_b = fetch_range(b);
+    set_range(a, range_b);
+    set_range(b, range_a);
+}
 
 // The place at `root` of the heap [first, first + count) sinks to where both below it are no larger.
 void sink(uint first, uint root, uint count) {

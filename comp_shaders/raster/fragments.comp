@@ -13,7 +13,6 @@ layout(binding = 4, scalar) buffer RasterCounts { uvec2 range_counts[]; };
 
 layout(constant_id = 4) const bool kCoverage = false;
 READ_UINT(6, coverage)
-uint part_first_tile() { return params.item_first - params.band_first; }
 #define LAYOUT_WRITE
 #include "layout_interface.glsl"
 #include "common/range_count.glsl"

@@ -5,4 +5,6 @@
 // Grid:    one invocation per list, or tile
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
-#include "sbuffer/finish.glsl"
+#define LAYOUT_FUNCTION layout_finish
+#define LAYOUT_OF_TILES LAYOUT_FINISHES_TILES
+#include "sbuffer/each.glsl"

@@ -6,4 +6,6 @@
 #extension GL_GOOGLE_include_directive : require
 #include "common/stage.glsl"
 #define GN_RANGE_EXIT
-#include "sbuffer/prepare.glsl"
+#define LAYOUT_FUNCTION layout_prepare
+#define LAYOUT_OF_TILES LAYOUT_PREPARES_TILES
+#include "sbuffer/each.glsl"

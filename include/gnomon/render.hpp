@@ -104,6 +104,9 @@ struct FrameStats {
     double wall_seconds = 0.0;
     std::string device;
     std::string driver;  ///< Its name and version; empty of what has none.
+
+    /// What layouts of a fixed capacity lost, of all lights: the sum of the counts lost.<light>.
+    uint64_t lost_ranges() const;
 };
 
 struct Frame {

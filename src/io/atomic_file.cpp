@@ -72,7 +72,7 @@ fs::path resolve(fs::path path) {
 }
 
 // A signal waits for a call that writes, or that waits for the disk, to return: most bytes of one.
-constexpr size_t kMostAtOnce_bytes = size_t{16} << 20;
+constexpr size_t kMostBytesAtOnce = size_t{16} << 20;
 
 constexpr std::string_view kPrefix = ".gnomon-", kSuffix = ".tmp";
 
@@ -205,7 +205,7 @@ void AtomicFile::remove() {
 void AtomicFile::write(std::span<const std::byte> data) {
     while (!data.empty()) {
         const ssize_t written =
-            ::pwrite(descriptor_, data.data(), std::min(data.size(), kMostAtOnce_bytes), static_cast<off_t>(position_));
+            ::pwrite(descriptor_, data.data(), std::min(data.size(), kMostBytesAtOnce), static_cast<off_t>(position_));
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) fail(errno);
         position_ += static_cast<uint64_t>(written);
@@ -217,9 +217,9 @@ void AtomicFile::write(std::span<const std::byte> data) {
 void AtomicFile::commit() {
     if (error_ != 0) fail(error_);
     // fsync() finds little to do then.
-    for (uint64_t at = 0; at < bytes_; at += kMostAtOnce_bytes) {
+    for (uint64_t at = 0; at < bytes_; at += kMostBytesAtOnce) {
         const unsigned flags = SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE | SYNC_FILE_RANGE_WAIT_AFTER;
-        const bool synced = ::sync_file_range(descriptor_, static_cast<off_t>(at), kMostAtOnce_bytes, flags) == 0;
+        const bool synced = ::sync_file_range(descriptor_, static_cast<off_t>(at), kMostBytesAtOnce, flags) == 0;
         if (!synced && errno != ENOSYS) fail(errno);
     }
     if (::fsync(descriptor_) != 0) fail(errno);

@@ -117,6 +117,10 @@ std::string size_lists(const Layout& layout) {
     return "#define LAYOUT_LIST_SIZES" + lists + "\n#define LAYOUT_TILE_SIZES" + tiles + "\n";
 }
 
+std::string of_tiles(const std::string& macro, Layout::Pass pass) {
+    return "#define " + macro + (pass == Layout::Pass::tile ? " 1\n" : " 0\n");
+}
+
 }  // namespace
 
 std::string written_name(const LayoutBuffer& buffer) { return "Written_" + buffer.name; }
@@ -127,9 +131,10 @@ std::string read_name(const LayoutSize& size) {
 
 std::string layout_interface(const Layout& layout) {
     std::string text = "// From layout.json.\n#define Iterator " + layout.iterator + "\n";
+    text += "#ifdef LAYOUT_WRITE\n// What one dispatch writes is a part of the band.\n";
+    text += "uint part_first_tile() { return params.item_first - params.band_first; }\n#endif\n";
     if (layout.keeps_counts()) text += "#define LAYOUT_COUNTS\n";
-    if (layout.prepare == Layout::Pass::tile) text += "#define LAYOUT_PREPARES_TILES\n";
-    if (layout.finish == Layout::Pass::tile) text += "#define LAYOUT_FINISHES_TILES\n";
+    text += of_tiles("LAYOUT_PREPARES_TILES", layout.prepare) + of_tiles("LAYOUT_FINISHES_TILES", layout.finish);
     if (layout.morton) text += "#define LAYOUT_MORTON\n";
     for (const auto& [name, value] : layout.constants) text += "const uint " + name + " = " + std::to_string(value) + "u;\n";
     if (layout.counts_up())

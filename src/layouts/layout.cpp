@@ -65,44 +65,6 @@ LayoutFiles layout_files(const std::string& name_or_folder) {
     return {std::string(find_source(folder + "layout.json").value()), std::string(find_source(folder + "layout.glsl").value())};
 }
 
-std::string bytes_formula(const Layout& layout) {
-    std::vector<std::pair<std::string, uint64_t>> terms;
-    const auto add = [&](const std::string& of, uint64_t bytes) {
-        const auto same = std::find_if(terms.begin(), terms.end(), [&](const auto& term) { return term.first == of; });
-        if (same == terms.end()) {
-            terms.emplace_back(of, bytes);
-        } else {
-            same->second += bytes;
-        }
-    };
-    for (const LayoutBuffer& buffer : layout.buffers) {
-        if (!layout.has(buffer)) continue;
-        const uint64_t bytes = uint64_t(buffer.element_bytes) * buffer.elements;
-        switch (buffer.per) {
-            case LayoutBuffer::Per::list:
-                add("lists", bytes);
-                break;
-            case LayoutBuffer::Per::tile:
-                add("tiles", bytes);
-                break;
-            case LayoutBuffer::Per::size:
-                add(layout.sizes[buffer.size].name, bytes);
-                break;
-            default:
-                add("(" + buffer.length.text() + ")", bytes);
-                break;
-        }
-    }
-    // Each value, and in the band that is in memory the value or its sum.
-    for (const LayoutSize& size : layout.sizes) {
-        if (size.as == LayoutSize::As::values || size.as == LayoutSize::As::offsets)
-            add(size.per == LayoutSize::Per::tile ? "tiles" : "lists", 8);
-    }
-    std::string text;
-    for (const auto& [of, bytes] : terms) text += (text.empty() ? "" : " + ") + std::to_string(bytes) + " " + of;
-    return text.empty() ? "0" : text;
-}
-
 bool is_compiled(const Layout& layout) {
     const auto named = [&](const LayoutEntry& entry) { return entry.compiled && entry.name == layout.name; };
     return layout.folder.empty() && std::any_of(std::begin(kLayoutTable), std::end(kLayoutTable), named);

@@ -20,9 +20,6 @@ struct LayoutFiles {
 /// Errors: as find_layout.
 LayoutFiles layout_files(const std::string& name_or_folder);
 
-/// What it takes, as a formula of lists, tiles, ranges and its own sizes: "16 ranges + 8 lists".
-std::string bytes_formula(const Layout& layout);
-
 /// Its stages were compiled with gnomon; all others are when they are needed (layouts/compile_layout.hpp).
 bool is_compiled(const Layout& layout);
 

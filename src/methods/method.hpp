@@ -70,6 +70,8 @@ struct Method {
     std::function<std::unique_ptr<ShadowMap>(const LightContext&, const Bins&)> make_map;
 
     bool has_s_buffer() const { return !rasters.empty(); }
+    /// It has an S-buffer, and this layout gives it what it asks of ranges.
+    bool takes(const Layout& layout_of_it) const { return has_s_buffer() && !(exit_depth && layout_of_it.only_contains()); }
 };
 
 /// All methods, the default first.

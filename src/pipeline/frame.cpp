@@ -74,7 +74,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     Layout layout = with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
     layout.poisoned = settings.poison_layout;
     if (method.has_s_buffer()) {
-        if (method.exit_depth && layout.only_contains()) {
+        if (!method.takes(layout)) {
             throw Error(
                 ErrorKind::usage,
                 "method " + method.name + " needs the very ranges, of which layout " + layout.name + " only contains them",

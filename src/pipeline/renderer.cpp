@@ -17,6 +17,12 @@ struct LoadedScene::Impl {
     const gpu::Device* device = nullptr;  ///< It is on.
 };
 
+uint64_t FrameStats::lost_ranges() const {
+    uint64_t lost = 0;
+    for (const auto& [name, count] : counts) lost += name.starts_with("lost.") ? count : 0;
+    return lost;
+}
+
 const Scene& LoadedScene::scene() const { return impl_->scene; }
 
 struct Renderer::Impl {

@@ -20,24 +20,6 @@ constexpr uint32_t kCounters = shared::kMostSizes + 1;
 
 uint64_t align_down(uint64_t value) { return value / kPlaceAlign * kPlaceAlign; }
 
-// Of a size: one for each list, or tile.
-uint64_t values_of_size(const LayoutSize& size, const Extent& of) {
-    return size.per == LayoutSize::Per::tile ? of.tiles : of.lists();
-}
-
-// Bound as a whole by every part: it may be written anywhere, or is so small that cutting it is not worth it.
-bool is_whole(const LayoutBuffer& buffer) {
-    return buffer.per == LayoutBuffer::Per::band || buffer.per == LayoutBuffer::Per::tile;
-}
-
-bool knows_each(const LayoutSize& size) { return size.as == LayoutSize::As::values || size.as == LayoutSize::As::offsets; }
-
-Extent difference(const Extent& end, const Extent& begin) {
-    Extent result{{}, end.tiles - begin.tiles};
-    for (size_t i = 0; i < result.sizes.size(); ++i) result.sizes[i] = end.sizes[i] - begin.sizes[i];
-    return result;
-}
-
 }  // namespace
 
 SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout)
@@ -58,7 +40,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     for (const LayoutBuffer& buffer : layout_.buffers) {
         if (layout_.has(buffer)) memory_.push_back({buffer, written_name(buffer), {}});
     }
-    const Extent all{{}, item_count_};
+    const Totals all{{}, item_count_};
     for (size_t i = 0; i < layout_.sizes.size(); ++i) {
         const LayoutSize& size = layout_.sizes[i];
         if (!knows_each(size)) continue;
@@ -69,39 +51,15 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
     count();
 }
 
-uint64_t SBuffer::elements(const LayoutBuffer& buffer, const Extent& of) const {
-    switch (buffer.per) {
-        case LayoutBuffer::Per::list:
-            return of.lists() * buffer.elements;
-        case LayoutBuffer::Per::tile:
-            return of.tiles * buffer.elements;
-        case LayoutBuffer::Per::size:
-            return of.sizes[buffer.size] * buffer.elements;
-        default:
-            break;
-    }
-    return buffer.length.value([&](const std::string& name) -> uint64_t {
-        if (name == "lists") return of.lists();
-        if (name == "tiles") return of.tiles;
-        for (size_t i = 0; i < layout_.sizes.size(); ++i) {
-            if (layout_.sizes[i].name == name) return of.sizes[i];
-        }
-        for (const auto& [constant, value] : layout_.constants) {
-            if (constant == name) return value;
-        }
-        throw Error(ErrorKind::internal, "a length of what there is not", name, "report this as a bug");
-    });
-}
-
-uint64_t SBuffer::bytes_of(const Extent& band) const {
+uint64_t SBuffer::held_bytes(const Totals& band) const {
     uint64_t bytes = 0;
-    for (const Memory& m : memory_) bytes += std::max<uint64_t>(1, elements(m.description, band)) * m.description.element_bytes;
+    for (const Memory& m : memory_) bytes += bytes_of(layout_, m.description, band);
     for (const Sizes& s : sizes_) bytes += scan_bytes(values_of_size(layout_.sizes[s.index], band));
     return bytes;
 }
 
 // Besides, while it is filled.
-uint64_t SBuffer::work_bytes_of(const Extent& band) const {
+uint64_t SBuffer::work_bytes(const Totals& band) const {
     uint64_t bytes = raster_->part_count() > 1 ? band.lists() * 4 : 0;
     for (const Sizes& s : sizes_) {
         const LayoutSize& size = layout_.sizes[s.index];
@@ -113,10 +71,10 @@ uint64_t SBuffer::work_bytes_of(const Extent& band) const {
 }
 
 // What is read is bound as a whole; what is not written in parts is so too.
-bool SBuffer::can_be_bound(const Extent& band) const {
+bool SBuffer::can_be_bound(const Totals& band) const {
     const gpu::Limits& limits = device_.limits();
     return std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
-        const uint64_t count = elements(m.description, band), bytes = m.description.element_bytes;
+        const uint64_t count = elements_of(layout_, m.description, band), bytes = m.description.element_bytes;
         const bool whole = is_whole(m.description);
         return count <= limits.most_elements(bytes) && count < 0xffffffffull &&
                (!whole || count <= limits.max_storage_range / bytes);
@@ -124,7 +82,7 @@ bool SBuffer::can_be_bound(const Extent& band) const {
 }
 
 uint64_t SBuffer::map_bytes() const {
-    uint64_t bytes = bytes_of(counted().back()) + raster_->source_bytes();
+    uint64_t bytes = held_bytes(counted().back()) + raster_->source_bytes();
     for (const Sizes& s : sizes_) bytes += s.values.bytes();
     return bytes;
 }
@@ -146,15 +104,15 @@ shared::RasterParams SBuffer::params(const Band& part) const {
                                 .place_first = {},
                                 .entry_first = raster_->entry_first(),
                                 .fragment_item = raster_->fragment_item()};
-    const Extent bound = bound_before(part);
+    const Totals bound = bound_before(part);
     for (size_t i = 0; i < bound.sizes.size(); ++i) params.place_first[i] = static_cast<uint32_t>(bound.sizes[i]);
     return params;
 }
 
 // What of the band lies before the first place that is bound for a part.
-Extent SBuffer::bound_before(const Band& part) const {
+Totals SBuffer::bound_before(const Band& part) const {
     if (band_.item_count == 0) return {};
-    Extent before = extent_of(band_.item_first, part.item_first - band_.item_first);
+    Totals before = totals_of(band_.item_first, part.item_first - band_.item_first);
     for (uint64_t& size : before.sizes) size = align_down(size);
     return before;
 }
@@ -173,9 +131,9 @@ std::vector<gpu::Binding> SBuffer::write_bindings(const Band* part) const {
             continue;
         }
         const bool whole = is_whole(d);
-        const uint64_t first = whole ? 0 : elements(d, bound_before(*part));
+        const uint64_t first = whole ? 0 : elements_of(layout_, d, bound_before(*part));
         const Band until{band_.item_first, part->item_first - band_.item_first + part->item_count};
-        const uint64_t end = elements(d, extent_of(whole ? band_ : until));
+        const uint64_t end = elements_of(layout_, d, totals_of(whole ? band_ : until));
         all.push_back(
             {m.written, &m.buffer, {}, first * d.element_bytes, std::max<uint64_t>(1, end - first) * d.element_bytes});
     }
@@ -247,7 +205,7 @@ void SBuffer::record_sizes(const gpu::Buffer& counts, uint64_t most_items) {
         const LayoutSize& size = layout_.sizes[i];
         const bool tiles = size.per == LayoutSize::Per::tile;
         const auto known = std::find_if(sizes_.begin(), sizes_.end(), [&](const Sizes& s) { return s.index == i; });
-        const Extent all{{}, item_count_};
+        const Totals all{{}, item_count_};
         const gpu::Buffer unkept = known == sizes_.end()
                                        ? device_.allocate("s_buffer.each_of_" + size.name, values_of_size(size, all) * 4)
                                        : gpu::Buffer();
@@ -288,32 +246,32 @@ const SBuffer::Counted& SBuffer::counted() const {
 }
 
 // Of whole blocks, but for the last.
-Extent SBuffer::extent_of(uint32_t item_first, uint32_t item_count) const {
+Totals SBuffer::totals_of(uint32_t item_first, uint32_t item_count) const {
     const Counted& counted = this->counted();
-    return difference(counted[groups_of(item_first + uint64_t(item_count), kCountBlock)], counted[item_first / kCountBlock]);
+    return counted[groups_of(item_first + uint64_t(item_count), kCountBlock)] - counted[item_first / kCountBlock];
 }
 
 std::vector<Band> SBuffer::bands(uint64_t bytes) const {
     const Counted& counted = this->counted();
-    const auto fits = [&](const Extent& band) { return bytes_of(band) + work_bytes_of(band) <= bytes && can_be_bound(band); };
-    const auto too_large = [&](const std::string& what, const Extent& extent) {
-        return BandTooLarge(what, "S-buffer", bytes_of(extent) + work_bytes_of(extent), bytes, "a larger --shadow-res");
+    const auto fits = [&](const Totals& band) { return held_bytes(band) + work_bytes(band) <= bytes && can_be_bound(band); };
+    const auto too_large = [&](const std::string& what, const Totals& totals) {
+        return BandTooLarge(what, "S-buffer", held_bytes(totals) + work_bytes(totals), bytes, "a larger --shadow-res");
     };
     if (fits(counted.back())) return {{0, item_count_, 0, range_count()}};
     if (!layout_.bands)
         throw too_large("the ranges of a light's view, whose layout '" + layout_.name + "' has no bands,", counted.back());
     std::vector<Band> result;
     uint64_t needed = 0;
-    Extent largest;
+    Totals largest;
     for (size_t first = 0, end = 0; first + 1 < counted.size(); first = end) {
         ++end;
-        const Extent block = difference(counted[end], counted[first]);
-        if (!fits(block) && bytes_of(block) > needed) {
-            needed = bytes_of(block);
+        const Totals block = counted[end] - counted[first];
+        if (!fits(block) && held_bytes(block) > needed) {
+            needed = held_bytes(block);
             largest = block;
         }
-        while (end + 1 < counted.size() && fits(difference(counted[end + 1], counted[first]))) ++end;
-        const Extent held = difference(counted[end], counted[first]);
+        while (end + 1 < counted.size() && fits(counted[end + 1] - counted[first])) ++end;
+        const Totals held = counted[end] - counted[first];
         result.push_back({static_cast<uint32_t>(counted[first].tiles), static_cast<uint32_t>(held.tiles),
                           counted[first].sizes[0], held.sizes[0]});
     }
@@ -323,24 +281,24 @@ std::vector<Band> SBuffer::bands(uint64_t bytes) const {
 
 std::vector<Band> SBuffer::parts() const {
     const uint64_t most = device_.limits().max_storage_range;
-    const auto fits = [&](const Extent& part) {
+    const auto fits = [&](const Totals& part) {
         return part.lists() * 4 <= most && std::all_of(memory_.begin(), memory_.end(), [&](const Memory& m) {
                    const LayoutBuffer& d = m.description;
-                   return is_whole(d) || (elements(d, part) + kPlaceAlign * d.elements) * d.element_bytes <= most;
+                   return is_whole(d) || (elements_of(layout_, d, part) + kPlaceAlign * d.elements) * d.element_bytes <= most;
                });
     };
     std::vector<Band> result;
     const uint32_t end = band_.item_first + band_.item_count;
     for (uint32_t item = band_.item_first; item < end; item += kCountBlock) {
         const uint32_t items = std::min(kCountBlock, end - item);
-        if (!fits(extent_of(item, items))) {
+        if (!fits(totals_of(item, items))) {
             throw Error(ErrorKind::out_of_memory,
-                        std::to_string(extent_of(item, items).sizes[0]) +
+                        std::to_string(totals_of(item, items).sizes[0]) +
                             " ranges in one block of tiles are more than the device can bind",
                         "S-buffer", "use a larger --shadow-res");
         }
         const bool begins = result.empty() || portion_of(result.back().item_first) != portion_of(item) ||
-                            !fits(extent_of(result.back().item_first, item + items - result.back().item_first));
+                            !fits(totals_of(result.back().item_first, item + items - result.back().item_first));
         if (begins) result.push_back({item, 0});
         result.back().item_count += items;
     }
@@ -349,7 +307,7 @@ std::vector<Band> SBuffer::parts() const {
 
 // Memory for a band. Kept for later ones that need no more of anything: what it takes at most is then known when all were
 // filled once.
-void SBuffer::hold(const Extent& held) {
+void SBuffer::hold(const Totals& held) {
     struct Need {
         gpu::Buffer* buffer;
         std::string name;
@@ -357,9 +315,7 @@ void SBuffer::hold(const Extent& held) {
     };
     std::vector<Need> needs;
     for (Sizes& s : sizes_) needs.push_back({&s.band, s.read, scan_bytes(values_of_size(layout_.sizes[s.index], held))});
-    for (Memory& m : memory_)
-        needs.push_back({&m.buffer, m.description.name,
-                         std::max<uint64_t>(1, elements(m.description, held)) * m.description.element_bytes});
+    for (Memory& m : memory_) needs.push_back({&m.buffer, m.description.name, bytes_of(layout_, m.description, held)});
     if (raster_->part_count() > 1) needs.push_back({&cursors_, "cursors", held.lists() * 4});
     if (std::all_of(needs.begin(), needs.end(), [](const Need& need) { return need.buffer->bytes() >= need.bytes; })) return;
     for (const Need& need : needs) *need.buffer = gpu::Buffer();
@@ -367,7 +323,7 @@ void SBuffer::hold(const Extent& held) {
 }
 
 // What of each size is read while the band is in memory.
-void SBuffer::record_sums(const Extent& held) {
+void SBuffer::record_sums(const Totals& held) {
     gpu::Recorder& recorder = device_.recorder();
     for (const Sizes& s : sizes_) {
         const LayoutSize& size = layout_.sizes[s.index];
@@ -387,7 +343,7 @@ void SBuffer::record_sums(const Extent& held) {
 
 // Places of a part lie behind those of the parts before.
 void SBuffer::begin_counters(const Band& part) {
-    const Extent before = extent_of(band_.item_first, part.item_first - band_.item_first);
+    const Totals before = totals_of(band_.item_first, part.item_first - band_.item_first);
     for (size_t i = 0; i < layout_.sizes.size(); ++i) {
         if (layout_.sizes[i].as == LayoutSize::As::allocated)
             device_.recorder().fill("sbuffer/clear", counters_, static_cast<uint32_t>(before.sizes[i]), i * 4, 4);
@@ -405,7 +361,7 @@ void SBuffer::record_lists(const std::string& stage, Layout::Pass pass, const st
 
 void SBuffer::fill(const Band& band) {
     band_ = band;
-    const Extent held = extent_of(band);
+    const Totals held = totals_of(band);
     hold(held);
     record_sums(held);
     for (const Memory& m : memory_) {
@@ -430,11 +386,11 @@ void SBuffer::fill(const Band& band) {
 
 std::vector<gpu::Binding> SBuffer::read_bindings() const {
     std::vector<gpu::Binding> result;
-    const Extent held = extent_of(band_);
+    const Totals held = totals_of(band_);
     for (const Sizes& s : sizes_) result.push_back({s.read, &s.band, Texel::r32_uint});
     for (const Memory& m : memory_) {
         const LayoutBuffer& d = m.description;
-        result.push_back({d.name, &m.buffer, d.format, 0, std::max<uint64_t>(1, elements(d, held)) * d.element_bytes});
+        result.push_back({d.name, &m.buffer, d.format, 0, bytes_of(layout_, d, held)});
     }
     return result;
 }

@@ -2,22 +2,14 @@
 // The S-buffer of a light's view: all ranges of all texels, in a layout.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "layouts/layout.hpp"
+#include "layouts/memory.hpp"
 #include "stages/grid.hpp"
 #include "stages/raster_stage.hpp"
 
 namespace gnomon {
-
-/// Of a run of items: the elements of each size of a layout (LayoutSize), and its lists and tiles.
-struct Extent {
-    std::array<uint64_t, shared::kMostSizes> sizes{};
-    uint64_t tiles = 0;
-
-    uint64_t lists() const { return tiles * shared::kTileTexels; }
-};
 
 class SBuffer final : public ShadowMap {
 public:
@@ -60,15 +52,15 @@ private:
     };
     /// The result of the count pass, which the host waits for when it first asks: what is before each block of items, and
     /// before the end.
-    using Counted = std::vector<Extent>;
+    using Counted = std::vector<Totals>;
     const Counted& counted() const;
-    Extent extent_of(uint32_t item_first, uint32_t item_count) const;
-    Extent extent_of(const Band& run) const { return extent_of(run.item_first, run.item_count); }
+    Totals totals_of(uint32_t item_first, uint32_t item_count) const;
+    Totals totals_of(const Band& run) const { return totals_of(run.item_first, run.item_count); }
 
     void count();
     void record_sizes(const gpu::Buffer& counts, uint64_t most_items);
-    void hold(const Extent& held);
-    void record_sums(const Extent& held);
+    void hold(const Totals& held);
+    void record_sums(const Totals& held);
     void record_pass(bool fill, const Band& part, const gpu::Binding& list_state);
     void record_lists(const std::string& stage, Layout::Pass pass, const std::vector<Band>& parts);
     void begin_counters(const Band& part);
@@ -78,11 +70,10 @@ private:
     /// Of the layout, for what writes a part of the band; or that stand in for it where no band is in memory.
     std::vector<gpu::Binding> write_bindings(const Band* part) const;
     shared::RasterParams params(const Band& part) const;
-    Extent bound_before(const Band& part) const;
-    uint64_t elements(const LayoutBuffer& buffer, const Extent& of) const;
-    uint64_t bytes_of(const Extent& band) const;
-    uint64_t work_bytes_of(const Extent& band) const;
-    bool can_be_bound(const Extent& band) const;
+    Totals bound_before(const Band& part) const;
+    uint64_t held_bytes(const Totals& band) const;
+    uint64_t work_bytes(const Totals& band) const;
+    bool can_be_bound(const Totals& band) const;
 
     gpu::Device& device_;
     Programs& programs_;

@@ -218,12 +218,12 @@ TEST_F(ExternalLayoutTest, SaysWhichMemberOfTheManifestCannotBe) {
 }
 
 TEST_F(ExternalLayoutTest, BindsOnlyWhatItsManifestNames) {
-    copy_layout("array");
-    edit("layout.json", "\"name\": \"ranges\", \"type\"", "\"name\": \"stays\", \"type\"");
-    expect_input_error({"layout does not compile", "set_ranges", path("layout.glsl:")});
-    copy_layout("array");
-    edit("layout.json", "\"vec4\"", "\"uvec4\"");
-    expect_input_error({"layout does not compile", "set_ranges", path("layout.glsl:")});
+    copy_layout("array-soa");
+    edit("layout.json", "\"name\": \"times\", \"type\"", "\"name\": \"stays\", \"type\"");
+    expect_input_error({"layout does not compile", "set_times", path("layout.glsl:")});
+    copy_layout("array-soa");
+    edit("layout.json", "\"vec2\"", "\"uvec2\"");
+    expect_input_error({"layout does not compile", "set_times", path("layout.glsl:")});
     const std::string own = "layout(binding = 39, scalar) buffer Own { uint own[]; };\n";
     copy_layout("array");
     put_content(folder / "layout.glsl", own + content_of(folder / "layout.glsl"));

@@ -239,6 +239,35 @@ TEST(FrameRanges, DoNotDependOnTheBudget) {
     }
 }
 
+uint64_t fills(const Frame& frame) {
+    uint64_t dispatches = 0;
+    for (const FrameStats::Stage& stage : frame.stats.stages) dispatches += stage.name == "raster/fill" ? stage.dispatches : 0;
+    return dispatches;
+}
+
+// Where a binding holds less than the ranges, a band is written in parts, the places of each bound from its own first on.
+TEST(FrameRanges, DoNotDependOnWhatADeviceBinds) {
+    const MovingTriangles scene = small_scene(LightKind::spot);
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.spp = 1;
+    settings.shadow_res = 2000;
+    settings.keep_ranges = true;
+    setenv("GNOMON_LIMITS", "storage_range=8388608", 1);
+    Renderer limited("", true);
+    unsetenv("GNOMON_LIMITS");
+    for (const std::string method : {"exact", "dtr-analytic"}) {
+        settings.method = method;
+        for (const std::string layout : {"array", "linked"}) {
+            settings.layout = layout;
+            const Frame expected = validated_renderer().render(scene.scene, scene.poses, settings);
+            const Frame frame = limited.render(scene.scene, scene.poses, settings);
+            EXPECT_GT(fills(frame), fills(expected));
+            EXPECT_TRUE(frame.light_ranges.at(0).ranges == expected.light_ranges.at(0).ranges) << method << ", " << layout;
+        }
+    }
+}
+
 TEST(FrameRanges, OfMethodsWithoutThemAreEmpty) {
     RenderSettings settings;
     settings.method = "tsm";

@@ -38,7 +38,16 @@ std::optional<TexelRange> missing(Ranges these, Ranges those,
 }
 
 std::string range_text(const TexelRange& r) {
-    return fmt::format("triangle {} from {:.6g} to {:.6g} at {:.6g} m", r.triangle, r.enter, r.leave, r.depth);
+    return fmt::format("triangle {} from {:.9g} to {:.9g} at {:.9g} m", r.triangle, r.enter, r.leave, r.depth);
+}
+
+/// The same triangle's range among these that is not among those, if there is one: what may have become of another.
+std::string instead(Ranges these, Ranges those, const TexelRange& range) {
+    for (const TexelRange& other : these) {
+        const bool known = std::find(those.begin(), those.end(), other) != those.end();
+        if (other.triangle == range.triangle && !known) return ", instead of " + range_text(other);
+    }
+    return "";
 }
 
 /// What is wrong with the ranges of a texel; nothing, if they are as the layout says.
@@ -48,7 +57,7 @@ std::string compare_texel(const Layout& layout, Ranges found, Ranges exact) {
     const std::string count = fmt::format("{} of {} ranges", found.size(), exact.size());
     if (layout.lossless && std::equal(found.begin(), found.end(), exact.begin(), exact.end())) return "";
     if (!layout.only_contains()) {
-        if (const auto other = missing(found, exact, same)) return count + "; there is none of " + range_text(*other);
+        if (const auto other = missing(found, exact, same)) return count + "; there is none of " + range_text(*other) + instead(exact, found, *other);
         if (!layout.lossless) return "";
         if (const auto lost = missing(exact, found, same)) return count + "; lost is " + range_text(*lost);
         return count + ", some of them twice";
@@ -88,8 +97,7 @@ std::string compare_frames(const Layout& layout, const Frame& frame, const Frame
         lost += all.ranges.size() - found.ranges.size();
     }
     if (!layout.lossless && !layout.only_contains()) {
-        uint64_t counted = 0;
-        for (const auto& [name, count] : frame.stats.counts) counted += name.starts_with("lost.") ? count : 0;
+        const uint64_t counted = frame.stats.lost_ranges();
         const bool all_known = !exact.light_ranges.empty();
         return !all_known || counted == lost ? "" : fmt::format("{} ranges are lost, and {} counted", lost, counted);
     }

@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "io/atomic_file.hpp"
 #include "layouts/layout.hpp"
+#include "layouts/memory.hpp"
 #include "methods/method.hpp"
 
 namespace gnomon::cli {
@@ -36,7 +37,7 @@ std::vector<std::string> passes(const Layout& layout) {
 std::vector<std::string> methods_of(const Layout& layout) {
     std::vector<std::string> names;
     for (const Method& method : methods()) {
-        if (method.has_s_buffer() && !(method.exit_depth && layout.only_contains())) names.push_back(method.name);
+        if (method.takes(layout)) names.push_back(method.name);
     }
     return names;
 }

@@ -91,13 +91,6 @@ void write_outputs(const Frame& frame, const FrameJob& job, const RenderOptions&
     spdlog::info("wrote {}; rendered in {:.2f} s", fmt::join(outputs, ", "), frame.stats.wall_seconds);
 }
 
-// What layouts of a fixed capacity lost, of all lights: the counts lost.<light>.
-uint64_t lost_ranges(const FrameStats& stats) {
-    uint64_t lost = 0;
-    for (const auto& [name, count] : stats.counts) lost += name.starts_with("lost.") ? count : 0;
-    return lost;
-}
-
 void check_triangles(const Scene& scene) {
     if (scene.triangles.size() > io::kMostDumpedTriangles)
         throw Error(ErrorKind::input,
@@ -142,7 +135,7 @@ int render(const RenderOptions& options, bool quiet) {
                       frame_settings(options, settings, job, drawn.cameras[settings.camera].name, renderer.device()),
                       drawn.warnings);
         log_statistics(frame.stats);
-        if (const uint64_t lost = lost_ranges(frame.stats); lost > 0) {
+        if (const uint64_t lost = frame.stats.lost_ranges(); lost > 0) {
             spdlog::warn("the layout {} lost {} ranges: it has a fixed capacity", settings.layout, lost);
             exit_code = kLostEntries;
         }

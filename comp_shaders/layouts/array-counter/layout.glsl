@@ -3,6 +3,7 @@
 // the order of arrival, and each costs an atomic at one address.
 // Based on: Vasilakis and Fudos 2012, "S-buffer: Sparsity-aware multi-fragment rendering", section 3
 // Memory: 16 bytes per range (20 with the depth at its exit), 12 bytes per list (its count, twice, and its place).
+#include "library/range_vec4.glsl"
 
 uint layout_size_places(List list, uint count) { return count; }
 void layout_prepare(List list) {
@@ -12,8 +13,7 @@ void layout_prepare(List list) {
 
 uint layout_open(List list) { return fetch_firsts(list.index); }
 void layout_emit(List list, inout uint cursor, Range range) {
-    set_ranges(cursor, vec4(range.enter, range.leave, range.depth, uintBitsToFloat(range.entry)));
-    set_exits(cursor, range.exit_depth);
+    set_range(cursor, range);
     ++cursor;
 }
 void layout_close(List list, uint cursor) {}
@@ -22,9 +22,8 @@ void layout_close(List list, uint cursor) {}
 Iterator layout_begin(List list, Query query) { return Iterator(fetch_firsts(list.index), size_ranges(list)); }
 bool layout_more(Iterator it) { return it.y > 0u; }
 Range layout_next(inout Iterator it, Query query) {
-    vec4 range = fetch_ranges(it.x);
-    float exit_depth = fetch_exits(it.x);
+    Range range = fetch_range(it.x);
     ++it.x;
     --it.y;
-    return Range(range.x, range.y, range.z, floatBitsToUint(range.w), exit_depth);
+    return range;
 }

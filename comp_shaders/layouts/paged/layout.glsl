@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // S-buffer layout "paged": a linked list of pages, each of PAGE ranges side by side. The last page of a list is filled last, and may have room left.
 // Based on: Crassin 2010, "Linked lists of fragment pages"
-// Memory: 64 bytes per page (80 with depths at exits) and 4 for its link, 8 bytes per list.
+// Memory: 64 bytes per page (80 with depths at exits) and 4 for its link, 12 bytes per list.
+#include "library/range_vec4.glsl"
 
 uint layout_size_pages(List list, uint count) { return (count + PAGE - 1u) / PAGE; }
 
@@ -17,8 +18,7 @@ void layout_emit(List list, inout uint cursor, Range range) {
         }
         cursor = page * PAGE;
     }
-    set_ranges(cursor, vec4(range.enter, range.leave, range.depth, uintBitsToFloat(range.entry)));
-    set_exits(cursor, range.exit_depth);
+    set_range(cursor, range);
     ++cursor;
 }
 void layout_close(List list, uint cursor) {}
@@ -27,11 +27,10 @@ void layout_close(List list, uint cursor) {}
 Iterator layout_begin(List list, Query query) { return Iterator(fetch_heads(list.index) * PAGE, size_ranges(list)); }
 bool layout_more(Iterator it) { return it.y > 0u; }
 Range layout_next(inout Iterator it, Query query) {
-    vec4 range = fetch_ranges(it.x);
-    float exit_depth = fetch_exits(it.x);
+    Range range = fetch_range(it.x);
     --it.y;
     bool turns = it.x % PAGE == PAGE - 1u && it.y > 0u;
     uint next = fetch_links(turns ? it.x / PAGE : 0u) * PAGE;
     it.x = turns ? next : it.x + 1u;
-    return Range(range.x, range.y, range.z, floatBitsToUint(range.w), exit_depth);
+    return range;
 }

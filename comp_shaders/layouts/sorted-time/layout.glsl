@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// S-buffer layout "sorted-time": all ranges of a list side by side, in the order of their entry. What begins after the query's time ends the walk. Lists of more than kMostSorted ranges stay as they are, and their walks go on to the end.
+// S-buffer layout "sorted-time": all ranges of a list side by side, in the order of their entry. What begins after the query's time ends the walk. Lists of
+// more than kMostSorted ranges stay as they are, and their walks go on to the end.
 // Memory: 16 bytes per range (20 with the depth at its exit), 8 bytes per list (its count and its offset).
+#include "library/range_vec4.glsl"
 
 float sort_key(uint place) { return fetch_ranges(place).x; }
-void sort_swap(uint a, uint b) {
-    vec4 range_a = fetch_ranges(a), range_b = fetch_ranges(b);
-    float exit_a = fetch_exits(a), exit_b = fetch_exits(b);
-    set_ranges(a, range_b);
-    set_ranges(b, range_a);
-    set_exits(a, exit_b);
-    set_exits(b, exit_a);
-}
 #include "library/heap_sort.glsl"
 
 uint layout_open(List list) { return first_ranges(list); }
 void layout_emit(List list, inout uint cursor, Range range) {
-    set_ranges(cursor, vec4(range.enter, range.leave, range.depth, uintBitsToFloat(range.entry)));
-    set_exits(cursor, range.exit_depth);
+    set_range(cursor, range);
     ++cursor;
 }
 void layout_close(List list, uint cursor) {}
@@ -29,9 +22,8 @@ Iterator layout_begin(List list, Query query) {
 }
 bool layout_more(Iterator it) { return it.x < it.y; }
 Range layout_next(inout Iterator it, Query query) {
-    vec4 range = fetch_ranges(it.x);
-    float exit_depth = fetch_exits(it.x);
-    bool later = it.z != 0u && range.x > query.t;
+    Range range = fetch_range(it.x);
+    bool later = it.z != 0u && range.enter > query.t;
     it.x = later ? it.y : it.x + 1u;
-    return Range(range.x, range.y, range.z, floatBitsToUint(range.w), exit_depth);
+    return range;
 }

@@ -3,6 +3,7 @@
 // is the same for all lists, so that neighbours look at neighbouring memory (coherent hashing). A walk looks along its probes until it has seen all its ranges.
 // Based on: Lefebvre, Hornus, Lasram 2013, "HA-buffer: coherent hashing for single-pass A-buffer"; without their order by depth
 // Memory: 40 bytes per range (48 with the depth at its exit), 8 bytes per list.
+#include "library/range_vec4.glsl"
 
 uint probe(uint list, uint k) { return (list + k * 2654435769u) % length_owners(); }
 
@@ -15,8 +16,7 @@ void layout_emit(List list, inout uint cursor, Range range) {
         place = probe(list.index, cursor++);
         taken = compare_exchange_owners(place, kNone, list.index) != kNone;
     }
-    set_ranges(place, vec4(range.enter, range.leave, range.depth, uintBitsToFloat(range.entry)));
-    set_exits(place, range.exit_depth);
+    set_range(place, range);
 }
 void layout_close(List list, uint cursor) {}
 
@@ -27,6 +27,5 @@ Range layout_next(inout Iterator it, Query query) {
     uint place = probe(it.x, it.y++);
     while (fetch_owners(place) != it.x) place = probe(it.x, it.y++);
     --it.z;
-    vec4 range = fetch_ranges(place);
-    return Range(range.x, range.y, range.z, floatBitsToUint(range.w), fetch_exits(place));
+    return fetch_range(place);
 }

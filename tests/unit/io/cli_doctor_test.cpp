@@ -136,7 +136,7 @@ TEST_F(CliDoctorTest, FindsAPictureWithoutShadows) {
 
 TEST_F(CliDoctorTest, FindsAPictureThatLosesSomeRanges) {
     GN_SKIP_WITHOUT_DEVICE(run({"devices"}));
-    expect_wrong_picture(broken_layout("    ++it.x;\n", "    ++it.x;\n    if (range.x > 0.7) range.xy = vec2(2.0);\n"),
+    expect_wrong_picture(broken_layout("    ++it.x;\n", "    ++it.x;\n    if (range.enter > 0.7) range.enter = range.leave = 2.0;\n"),
                          "standard errors");
 }
 

@@ -132,11 +132,10 @@ TEST_F(CliLayoutsCheckTest, NamesWhatIsWrong) {
         const char *layout, *file, *from, *to, *what;
     } mistakes[] = {
         {"array", "layout.glsl", "return it.x < it.y;", "return it.x + 1u < it.y;", "ranges; lost is triangle "},
-        {"array", "layout.glsl", "range.enter, range.leave", "range.leave, range.enter", "ranges; there is none of triangle "},
+        {"array-soa", "layout.glsl", "range.enter, range.leave", "range.leave, range.enter", "ranges; there is none of triangle "},
         {"linked", "layout.json", ", \"initial\": \"none\"", "", "texels outside of a light's view have ranges"},
         {"paged", "layout.glsl", "- 1u, page)", ", page)", "light 0, texel "},
-        {"sorted-depth", "layout.glsl", "!(nearest_of(range, exit_depth) < query.limit)", "range.z > 0.5 * query.limit",
-         "pixel "},
+        {"sorted-depth", "layout.glsl", "!(nearest_of(range) < query.limit)", "range.depth > 0.5 * query.limit", "pixel "},
         {"no-depth", "layout.glsl", "ceil(", "floor(-2.0 + ", "ranges; not contained is triangle "},
         {"fixed", "layout.glsl", "count_lost(cursor - K)", "count_lost(1u)", "are lost, and "},
     };
