@@ -41,3 +41,21 @@ List list_at(uint tile, uint texel) {
 Tile tile_of(List list) { return Tile(list.tile); }
 
 #include "layout.glsl"
+
+#if defined(LAYOUT_CHECKED) && defined(LAYOUT_READ)
+// One dispatch walks kListChunk ranges of a list, and a few of what only contains them more: a walk of many more does not end.
+const uint kMostSteps = 2u * kListChunk;
+uint walk_steps = 0u, walked_list = 0u;
+bool checked_more(Iterator it) {
+    bool more = layout_more(it);
+    walk_steps += more ? 1u : 0u;
+    if (walk_steps == kMostSteps) count_fault(kWalks, walked_list);
+    return more && walk_steps < kMostSteps;
+}
+Iterator checked_begin(List list, Query query) {
+    walked_list = list.index;
+    return layout_begin(list, query);
+}
+#define layout_more checked_more
+#define layout_begin checked_begin
+#endif

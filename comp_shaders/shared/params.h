@@ -37,8 +37,9 @@ const uint kMostTurns = 65535u;
 // Most list entries that one dispatch walks: raster/conservative goes round up to 10 times for an entry: for itself, for each
 // of up to 8 rows, and once for each crew of entries (common/crew.glsl).
 const uint kListChunk = 6144u;
-// Fragments of a list that one dispatch of raster/prism pairs, up to the end of a prism's.
-const uint kPairChunk = 32768u;
+// Fragments of a list that one dispatch of raster/prism pairs, up to the end of a prism's: it goes round once for each, and up
+// to 7 times for the pairs of a prism, for whose loop being unrolled is a wish.
+const uint kPairChunk = 6144u;
 // Most workgroups of the shadow test in a row; its dispatch can be cut between rows.
 const uint kShadowRow = 128u;
 // Sizes of a layout, with the ranges.
@@ -50,7 +51,7 @@ const uint kBoundsRun = 16u;
 // Elements that one invocation scans.
 const uint kScanRun = 64u;
 #ifdef __cplusplus
-static_assert(kListChunk * 10u < kMostTurns && kPairChunk < kMostTurns && kMostBlocks < kMostTurns);
+static_assert(kListChunk * 10u < kMostTurns && kPairChunk * 9u < kMostTurns && kMostBlocks < kMostTurns);
 #endif
 
 // Strata of a batch: sample/shade goes round twice for each, and twice for each of its lights.
@@ -155,12 +156,12 @@ struct RasterParams {
     ViewGrid grid;
     uint item_count;  // Items (a tile of the window in a cell: tile * cell_count + cell), or pages, of this dispatch.
     uint item_first;
-    uint list_first;     // Walk entries [list_first, list_first + kListChunk) of each list.
-    uint last;           // No dispatch after this one walks these lists on.
-    uint band_first;     // The first item of the band that is made.
+    uint list_first;               // Walk entries [list_first, list_first + kListChunk) of each list.
+    uint last;                     // No dispatch after this one walks these lists on.
+    uint band_first;               // The first item of the band that is made.
     uint place_first[kMostSizes];  // Of each size of the layout: the place in the band that is bound as the first.
-    uint entry_first;    // As in PageParams.
-    uint fragment_item;  // raster/prism: the first item whose fragments are in memory.
+    uint entry_first;              // As in PageParams.
+    uint fragment_item;            // raster/prism: the first item whose fragments are in memory.
 };
 
 struct SizeParams {

@@ -43,7 +43,8 @@ struct RenderSettings {
     bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges. Does what `pages` "all" and no `static_once` do, and leaves
                                      ///< suns' views as they are; so does the next.
     bool keep_ranges = false;        ///< Fill Frame::light_ranges.
-    bool poison_layout = false;      ///< What a layout does not initialise holds 0xcdcdcdcd, so that it shows.
+    bool check_layout = false;       ///< What a layout does not initialise holds 0xcdcdcdcd, so that it shows, and its accesses
+                                     ///< are checked: fill Frame::layout_faults.
     bool count_ranges = false;       ///< Count the ranges that the shadow tests look at and test; costs some percent.
 };
 
@@ -77,6 +78,13 @@ struct LightRanges {
     uint32_t faces = 0;
     bool exit_depths = false;  ///< The method keeps them.
     std::vector<TexelRange> ranges;
+};
+
+/// What a layout did of one kind that it must not, seen with RenderSettings::check_layout.
+struct LayoutFault {
+    std::string buffer;    ///< Was accessed beyond its end; empty: walks of lists went on without an end.
+    uint64_t count = 0;    ///< How often.
+    uint64_t element = 0;  ///< The index that was used, once; of walks the list.
 };
 
 struct Channel {
@@ -121,6 +129,7 @@ struct Frame {
     /// light with several faces one face below the other); empty for methods without ranges.
     std::vector<std::vector<uint32_t>> texel_ranges;
     std::vector<LightRanges> light_ranges;         ///< By light; without texels for methods without ranges.
+    std::vector<LayoutFault> layout_faults;        ///< By buffer of the manifest.
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
 

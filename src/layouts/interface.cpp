@@ -41,8 +41,30 @@ std::string atomic_name(const std::string& operation) {
     return name + "_@";
 }
 
-std::string write_accessors(const LayoutBuffer& buffer, uint32_t binding) {
-    const std::string place = "@_elements[i - " + first_bound(buffer) + "]", type = buffer.type;
+// For stages that see buffers: what checks them.
+constexpr const char* kChecks = R"(#if defined(LAYOUT_WRITE) || defined(LAYOUT_READ)
+#define LAYOUT_CHECKED
+layout(binding = 18, scalar) buffer LayoutFaults { uvec2 layout_faults[]; };  // Of each buffer, and of walks: how often, the index of one.
+void count_fault(uint number, uint i) {
+    if (atomicAdd(layout_faults[number].x, 1u) == 0u) layout_faults[number].y = i;
+}
+uint checked_place(uint number, uint place, uint count, uint i) {
+    if (place >= count) count_fault(number, i);
+    return place < count ? place : 0u;
+}
+#endif
+)";
+
+// The place of element i; without checks as it is.
+std::string checked_place(size_t number, const std::string& place, const std::string& count) {
+    return "checked_place(" + std::to_string(number) + "u, " + place + ", " + count + ", i)";
+}
+
+std::string write_accessors(const Layout& layout, size_t number, uint32_t binding) {
+    const LayoutBuffer& buffer = layout.buffers[number];
+    const std::string relative = "i - " + first_bound(buffer), type = buffer.type;
+    const std::string checked = checked_place(number, relative, "uint(@_elements.length())");
+    const std::string place = "@_elements[" + (layout.checked ? checked : relative) + "]";
     std::string text = "layout(binding = " + std::to_string(binding) + ", scalar) buffer " + written_name(buffer) + " { " +
                        type + " @_elements[]; };\n" + type + " fetch_@(uint i) { return " + place + "; }\n" +
                        "void set_@(uint i, " + type + " value) { " + place + " = value; }\n";
@@ -71,11 +93,20 @@ std::string no_writes(const LayoutBuffer& buffer) {
     return text;
 }
 
-std::string buffer_text(const LayoutBuffer& buffer, uint32_t binding) {
+std::string read_accessors(const Layout& layout, size_t number, uint32_t binding) {
+    const std::string& type = layout.buffers[number].type;
+    const std::string text = reads(binding, type, "@");
+    if (!layout.checked) return text;
+    return text + type + " checked_fetch_@(uint i) { return fetch_@(" + checked_place(number, "i", "READ_COUNT(@)") +
+           "); }\n#define fetch_@(i) checked_fetch_@(i)\n";
+}
+
+std::string buffer_text(const Layout& layout, size_t number, uint32_t binding) {
+    const LayoutBuffer& buffer = layout.buffers[number];
     const std::string exists = buffer.exit_only ? " && defined(GN_RANGE_EXIT)" : "";
-    return named("#if defined(LAYOUT_WRITE)" + exists + "\n" + write_accessors(buffer, binding) +
+    return named("#if defined(LAYOUT_WRITE)" + exists + "\n" + write_accessors(layout, number, binding) +
                      length_accessor(buffer, "uint(@_elements.length())") + "#elif defined(LAYOUT_READ)" + exists + "\n" +
-                     reads(binding, buffer.type, "@") + length_accessor(buffer, "READ_COUNT(@)") + no_writes(buffer) +
+                     read_accessors(layout, number, binding) + length_accessor(buffer, "READ_COUNT(@)") + no_writes(buffer) +
                      "#else\n" + buffer.type + " fetch_@(uint i) { return " + buffer.type + "(0); }\n" +
                      length_accessor(buffer, "1u") + no_writes(buffer) + "#endif\n",
                  buffer.name);
@@ -134,6 +165,7 @@ std::string layout_interface(const Layout& layout) {
     text += "#ifdef LAYOUT_WRITE\n// What one dispatch writes is a part of the band.\n";
     text += "uint part_first_tile() { return params.item_first - params.band_first; }\n#endif\n";
     if (layout.keeps_counts()) text += "#define LAYOUT_COUNTS\n";
+    if (layout.checked) text += kChecks + ("const uint kWalks = " + std::to_string(layout.buffers.size()) + "u;\n");
     text += of_tiles("LAYOUT_PREPARES_TILES", layout.prepare) + of_tiles("LAYOUT_FINISHES_TILES", layout.finish);
     if (layout.morton) text += "#define LAYOUT_MORTON\n";
     for (const auto& [name, value] : layout.constants) text += "const uint " + name + " = " + std::to_string(value) + "u;\n";
@@ -149,7 +181,7 @@ std::string layout_interface(const Layout& layout) {
             layout.counters[i]);
     }
     for (size_t i = 0; i < layout.buffers.size(); ++i)
-        text += buffer_text(layout.buffers[i], kBuffersBinding + static_cast<uint32_t>(i));
+        text += buffer_text(layout, i, kBuffersBinding + static_cast<uint32_t>(i));
     return text + size_lists(layout);
 }
 

@@ -282,7 +282,7 @@ bool Layout::counts_up() const {
 }
 
 std::string Layout::stage(const std::string& name_without) const {
-    return name_without + "@" + (folder.empty() ? name : folder.string());
+    return name_without + "@" + (folder.empty() ? name : folder.string()) + (checked ? " checked" : "");
 }
 
 Layout parse_layout(std::string_view text, const std::string& where) {

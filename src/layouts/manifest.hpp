@@ -74,7 +74,7 @@ struct Layout {
     std::filesystem::path folder;  ///< Absolute; empty: built in.
     bool exit_depth = false;       ///< Its ranges have a depth at their exit: the method's wish, not the manifest's.
 
-    bool poisoned = false;  ///< What it does not initialise holds kPoison: a check's wish.
+    bool checked = false;  ///< A check's wish: what it does not initialise holds kPoison, and accesses are checked.
 
     /// The name among the programs of a stage compiled for this layout.
     std::string stage(const std::string& name_without) const;

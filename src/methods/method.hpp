@@ -43,8 +43,9 @@ struct LightContext {
     uint64_t bytes = 0;  ///< Its share of the memory budget.
     Layout layout;       ///< Of the S-buffer, where the method has one; likewise the stage that finds its ranges.
     std::string raster;
-    const View* camera = nullptr;  ///< The camera's view.
-    const Pages* asked = nullptr;  ///< The pages of the S-buffer, where not all are made.
+    const gpu::Buffer* layout_faults = nullptr;  ///< Of a layout that is checked (SBuffer).
+    const View* camera = nullptr;                ///< The camera's view.
+    const Pages* asked = nullptr;                ///< The pages of the S-buffer, where not all are made.
 
     std::optional<double> parameter(const std::string& name) const;
 };

@@ -19,7 +19,8 @@ SBuffer s_buffer_of(const LightContext& light, const Bins& bins, const gpu::Buff
     const bool orthographic = light.view.orthographic;
     const RasterSource source{light.geometry, bins, light.asked};
     if (light.raster != "prism") {
-        return {light.device, light.programs, walk_bins(light.programs, source, shader, orthographic), light.layout};
+        return {light.device, light.programs, walk_bins(light.programs, source, shader, orthographic), light.layout,
+                light.layout_faults};
     }
     // A quarter for the fragments: what the ranges take is bounded on its own, by the bands that are filled.
     constexpr uint64_t kShare = 4;
@@ -27,7 +28,7 @@ SBuffer s_buffer_of(const LightContext& light, const Bins& bins, const gpu::Buff
         return {light.device, light.programs,
                 pair_fragments(light.device, light.programs, source, shader, {orthographic, culls_back_faces(light), coverage},
                                light.bytes / kShare),
-                light.layout};
+                light.layout, light.layout_faults};
     } catch (const BandTooLarge& error) {
         throw BandTooLarge(error, kShare);
     }

@@ -65,6 +65,16 @@ void list_window(gpu::Device& device, Programs& programs, const Geometry& geomet
     }
 }
 
+std::vector<LayoutFault> read_faults(gpu::Device& device, const gpu::Buffer& faults, const Layout& layout) {
+    std::vector<LayoutFault> result;
+    const size_t count = layout.buffers.size();
+    const std::vector<glm::uvec2> found = gpu::download_vector<glm::uvec2>(device, faults, count + 1);
+    for (size_t i = 0; i <= count; ++i) {
+        if (found[i].x > 0) result.push_back({i < count ? layout.buffers[i].name : "", found[i].x, found[i].y});
+    }
+    return result;
+}
+
 void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std::shared_ptr<const SceneData> loaded,
                 const std::vector<Pose>& poses, const RenderSettings& settings, const Progress& progress, Frame& frame) {
     auto start = std::chrono::steady_clock::now();
@@ -72,7 +82,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     check_parameters(method, settings.parameters);
     const std::string raster = choose_raster(method, settings.raster);
     Layout layout = with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
-    layout.poisoned = settings.poison_layout;
+    layout.checked = settings.check_layout && method.has_s_buffer();
     if (method.has_s_buffer()) {
         if (!method.takes(layout)) {
             throw Error(
@@ -147,7 +157,11 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
                      .one_sided = closed_triangles > 0,
                      .keep_depths = settings.keep_samples,
                      .count_ranges = settings.count_ranges});
-    Lights shadows({device, programs, geometry, settings, method, layout, raster, view, sampler, room, still, pages, one_sided},
+    const gpu::Buffer faults =
+        layout.checked ? gpu::upload_new(device, "layout_faults", std::vector<glm::uvec2>(layout.buffers.size() + 1))
+                       : gpu::Buffer();
+    Lights shadows({device, programs, geometry, settings, method, layout, raster, faults ? &faults : nullptr, view, sampler,
+                    room, still, pages, one_sided},
                    scene, poses, bounds);
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;
@@ -180,6 +194,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
         read_film(device, sampler.resolve(), frame, rect_of(view, windows[w]));
     }
     if (keeps_ranges(settings)) shadows.read_ranges(frame);
+    frame.layout_faults = faults ? read_faults(device, faults, layout) : std::vector<LayoutFault>();
 
     const uint64_t hits = sampler.hit_count();
     const uint64_t tests = settings.count_ranges ? sampler.test_count() : 0;  // The last work before the statistics.

@@ -70,7 +70,7 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
     for (Face& face : faces_) {
         contexts_.push_back({shared_.device, shared_.programs, shared_.geometry, shared_.settings, shared_.method,
                              face.side.view, face.side.light_ix, shared_.still, 0, shared_.layout, shared_.raster,
-                             &shared_.camera});
+                             shared_.layout_faults, &shared_.camera});
         const uint64_t all = uint64_t(tiles_across(face.side.view)) * tiles_down(face.side.view);
         face.windows = windows_of(face.side.view, shared_.method.windowed ? most_tiles(contexts_.size() - 1) : all);
     }

@@ -21,6 +21,7 @@ public:
         const Method& method;
         Layout layout;
         std::string raster;
+        const gpu::Buffer* layout_faults;  ///< As LightContext's.
         const View& camera;
         Sampler& sampler;
         uint64_t room = 0;     ///< Bytes of the budget that were shared out.

@@ -22,12 +22,14 @@ uint64_t align_down(uint64_t value) { return value / kPlaceAlign * kPlaceAlign; 
 
 }  // namespace
 
-SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout)
+SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
+                 const gpu::Buffer* faults)
     : device_(device),
       programs_(programs),
       raster_(std::move(raster)),
       layout_(layout),
-      unbound_(device, layout.buffers.size() + 1) {
+      unbound_(device, layout.buffers.size() + 1),
+      faults_(faults) {
     item_count_ = raster_->item_count();
     list_count_ = uint64_t(item_count_) * kTileTexels;
     if (list_count_ + 1 > device.limits().most_elements(4)) {
@@ -120,6 +122,7 @@ Totals SBuffer::bound_before(const Band& part) const {
 std::vector<gpu::Binding> SBuffer::write_bindings(const Band* part) const {
     std::vector<gpu::Binding> all;
     if (counters_) all.push_back({"LayoutCounters", &counters_});
+    if (faults_ != nullptr) all.push_back({"LayoutFaults", faults_});
     for (const Sizes& s : sizes_)
         all.push_back(part != nullptr ? gpu::Binding{s.read, &s.band, Texel::r32_uint}
                                       : unbound_.at(memory_.size(), s.read, Texel::r32_uint));
@@ -366,7 +369,7 @@ void SBuffer::fill(const Band& band) {
     record_sums(held);
     for (const Memory& m : memory_) {
         const std::optional<uint32_t>& initial = m.description.initial;
-        if (initial || layout_.poisoned) device_.recorder().fill("sbuffer/clear", m.buffer, initial.value_or(kPoison));
+        if (initial || layout_.checked) device_.recorder().fill("sbuffer/clear", m.buffer, initial.value_or(kPoison));
     }
     if (counters_) device_.recorder().fill("sbuffer/clear", counters_, 0);
     const std::vector<Band> parts = this->parts();
@@ -386,6 +389,7 @@ void SBuffer::fill(const Band& band) {
 
 std::vector<gpu::Binding> SBuffer::read_bindings() const {
     std::vector<gpu::Binding> result;
+    if (faults_ != nullptr) result.push_back({"LayoutFaults", faults_});
     const Totals held = totals_of(band_);
     for (const Sizes& s : sizes_) result.push_back({s.read, &s.band, Texel::r32_uint});
     for (const Memory& m : memory_) {

@@ -13,9 +13,11 @@ namespace gnomon {
 
 class SBuffer final : public ShadowMap {
 public:
-    /// Count the ranges of all lists. raster: compiled for the layout.
+    /// Count the ranges of all lists. raster: compiled for the layout. faults: of a layout that is checked, a uvec2 for each of
+    /// its buffers and one more (LayoutFault); it outlives the S-buffer.
     /// Errors: ErrorKind::out_of_memory, also later, when the count is known.
-    SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout);
+    SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
+            const gpu::Buffer* faults = nullptr);
 
     uint64_t range_count() const { return counted().back().sizes[0]; }
     uint64_t list_count() const { return list_count_; }
@@ -93,6 +95,7 @@ private:
     gpu::Buffer cursors_;   ///< Of the band's lists, while they are walked in several dispatches.
     gpu::Buffer counters_;  ///< The next place of each size that is allocated; then the layout's own counters.
     std::optional<gpu::Download> lost_;
+    const gpu::Buffer* faults_;
 };
 
 }  // namespace gnomon

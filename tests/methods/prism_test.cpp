@@ -235,5 +235,46 @@ TEST_F(PrismRangesTest, AreTheFragmentsOfATexelTwoAndTwo) {
     }
 }
 
+// More prisms over every texel of a tile than one dispatch may walk, and fragments than it may pair: at rest, each is a range.
+TEST_F(PrismRangesTest, LongLists) {
+    constexpr uint32_t kPrisms = 7000;
+    static_assert(kPrisms > shared::kListChunk);
+    Soup soup(1, 8, 8, true);
+    for (uint32_t i = 0; i < kPrisms; ++i) {
+        const float depth = 1.0f + static_cast<float>(i) / kPrisms;
+        glm::uvec3 corners;
+        const glm::vec2 places[] = {{-20.0f, -20.0f}, {60.0f, -20.0f}, {-20.0f, 60.0f}};
+        for (int v = 0; v < 3; ++v) {
+            const glm::vec4 place(places[v], depth, 1.0f);
+            corners[v] = soup.add_vertex({place, place});
+        }
+        soup.triangles.push_back(corners);
+    }
+    const Geometry geometry = pose_geometry(device(), programs(), soup.scene(), soup.poses());
+    const Bins bins = bin_prisms(device(), programs(), geometry, soup.view(), soup.segments(), Listing::bounds);
+    const Layout layout = with_ranges(find_layout("array"), true);
+    SBuffer s_buffer(device(), programs(),
+                     pair_fragments(device(), programs(), {geometry, bins}, layout.stage("raster/prism"),
+                                    {.orthographic = soup.orthographic}, 1ull << 40),
+                     layout);
+    const Band band = s_buffer.bands(1ull << 40).at(0);
+    s_buffer.fill(band);
+    const auto counts = s_buffer.counts();
+    EXPECT_EQ(counts.at("fragments"), 2u * kPrisms * 64u);
+    EXPECT_EQ(counts.at("fragments_left_over"), 0u);
+    uint64_t missing = 0, wrong = 0;
+    for (const auto& list : read_exit_ranges(device(), programs(), s_buffer, band)) {
+        std::vector<bool> seen(kPrisms);
+        for (const ExitRange& r : list) {
+            const float depth = 1.0f + static_cast<float>(r.entry) / kPrisms;
+            wrong += std::fabs(r.enter_depth - depth) > 1e-5f || r.enter != 0.0f || r.leave != 1.0f ? 1 : 0;
+            seen.at(r.entry) = true;
+        }
+        missing += static_cast<uint64_t>(std::count(seen.begin(), seen.end(), false));
+    }
+    EXPECT_EQ(missing, 0u);
+    EXPECT_EQ(wrong, 0u);
+}
+
 }  // namespace
 }  // namespace gnomon::test

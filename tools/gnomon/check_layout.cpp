@@ -57,7 +57,8 @@ std::string compare_texel(const Layout& layout, Ranges found, Ranges exact) {
     const std::string count = fmt::format("{} of {} ranges", found.size(), exact.size());
     if (layout.lossless && std::equal(found.begin(), found.end(), exact.begin(), exact.end())) return "";
     if (!layout.only_contains()) {
-        if (const auto other = missing(found, exact, same)) return count + "; there is none of " + range_text(*other) + instead(exact, found, *other);
+        if (const auto other = missing(found, exact, same))
+            return count + "; there is none of " + range_text(*other) + instead(exact, found, *other);
         if (!layout.lossless) return "";
         if (const auto lost = missing(exact, found, same)) return count + "; lost is " + range_text(*lost);
         return count + ", some of them twice";
@@ -87,8 +88,15 @@ std::string compare_light(const Layout& layout, const LightRanges& found, const 
     return "";
 }
 
+std::string fault_text(const LayoutFault& fault) {
+    if (fault.buffer.empty()) return fmt::format("{} walks do not end, one of list {}", fault.count, fault.element);
+    return fmt::format("{} accesses beyond the end of buffer '{}', one of element {}", fault.count, fault.buffer,
+                       fault.element);
+}
+
 /// What is wrong with a frame; nothing, if it is as the layout says.
 std::string compare_frames(const Layout& layout, const Frame& frame, const Frame& exact) {
+    if (!frame.layout_faults.empty()) return fault_text(frame.layout_faults.front());
     uint64_t lost = 0;
     for (size_t i = 0; i < exact.light_ranges.size(); ++i) {
         const LightRanges &found = frame.light_ranges[i], &all = exact.light_ranges[i];
@@ -180,7 +188,7 @@ LayoutCheck run(Renderer& renderer, const Layout& layout, const std::string& nam
     settings.layout = "array";
     const Frame exact = renderer.render(check.scene, check.poses, settings);
     settings.layout = name_or_folder;
-    settings.poison_layout = true;
+    settings.check_layout = true;
     std::string cut;
     try {
         Frame frame = renderer.render(check.scene, check.poses, settings);
@@ -204,9 +212,11 @@ LayoutCheck run(Renderer& renderer, const Layout& layout, const std::string& nam
 
 }  // namespace
 
-void check_layout(Renderer& renderer, const std::string& name_or_folder, const std::function<void(const LayoutCheck&)>& done) {
+void check_layout(Renderer& renderer, const std::string& name_or_folder, const std::function<bool(const LayoutCheck&)>& done) {
     const Layout layout = find_layout(name_or_folder);
-    for (const Trial& trial : trials(layout)) done(run(renderer, layout, name_or_folder, trial));
+    for (const Trial& trial : trials(layout)) {
+        if (!done(run(renderer, layout, name_or_folder, trial))) return;
+    }
 }
 
 }  // namespace gnomon::cli

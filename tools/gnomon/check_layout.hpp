@@ -16,7 +16,8 @@ struct LayoutCheck {
 
 /// Render the scene of the check (check_scene.hpp) with the layout and with `array`, by each method that the layout serves,
 /// with each kind of light, in bands and by pages, and compare all ranges of all texels and the pictures. What the layout does
-/// not initialise is poisoned. `done` is called for each. Errors: as of find_layout and Renderer::render.
-void check_layout(Renderer& renderer, const std::string& name_or_folder, const std::function<void(const LayoutCheck&)>& done);
+/// not initialise is poisoned, and its accesses are checked. `done` is called for each, and says whether to go on. Errors: as
+/// of find_layout and Renderer::render.
+void check_layout(Renderer& renderer, const std::string& name_or_folder, const std::function<bool(const LayoutCheck&)>& done);
 
 }  // namespace gnomon::cli

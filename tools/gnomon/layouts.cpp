@@ -101,6 +101,7 @@ int make_layout(const NewOptions& options) {
 
 struct CheckOptions {
     std::string layout, device, json;
+    bool fail_fast = false;
 };
 
 int check(const CheckOptions& options) {
@@ -116,6 +117,7 @@ int check(const CheckOptions& options) {
         if (!check.passed) spdlog::error("{} failed: {}", check.name, check.text);
         if (!check.passed) exit_code = kWrongResult;
         json["checks"].push_back({{"name", check.name}, {"passed", check.passed}, {"text", check.text}});
+        return check.passed || !options.fail_fast;
     });
     if (!options.json.empty()) write_json(options.json, json);
     return exit_code;
@@ -139,6 +141,7 @@ void add_layouts(CLI::App& app, Invocation& invocation) {
     auto check_options = std::make_shared<CheckOptions>();
     checks->add_option("LAYOUT", check_options->layout, "A layout's name, or its folder")->required();
     checks->add_option("--device", check_options->device, "Vulkan device, as of gnomon render")->type_name("NAME");
+    checks->add_flag("--fail-fast", check_options->fail_fast, "End with the first check that fails");
     checks->add_option("--json", check_options->json, "Write it as JSON; - for stdout, instead of the text")
         ->type_name("FILE.json");
     command->require_subcommand(0, 1);
