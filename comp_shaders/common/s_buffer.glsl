@@ -26,6 +26,10 @@ struct Query {
     bool all;
 };
 
+// Of the range that is emitted, by raster/conservative: its triangle's number among those of the tile's list, and the times of the shutter between which its cell lies.
+uint emitted_triangle = 0u;
+vec2 emitted_cell = vec2(0.0, 1.0);
+
 #ifdef LAYOUT_WRITE
 // What one dispatch writes is a part of the band.
 uint part_first_tile() { return params.item_first - params.band_first; }
