@@ -150,6 +150,12 @@ MovingTriangles flying(uint32_t segments, uint32_t count, float size, uint32_t s
     return result;
 }
 
+// Ranges that only contain the true ones lead to more tests, and the same answers.
+bool answers_exactly(const std::string& name) {
+    const Layout layout = find_layout(name);
+    return layout.lossless || layout.only_contains();
+}
+
 TEST_F(ShadowTest, AgreeWithTheOracleInEveryLayout) {
     for (uint32_t segments : {1u, 2u}) {
         const MovingTriangles scene = flying(segments, 60, 0.4f, segments);
@@ -158,7 +164,7 @@ TEST_F(ShadowTest, AgreeWithTheOracleInEveryLayout) {
         for (const std::string& layout : layout_names()) {
             SCOPED_TRACE(testing::Message() << layout << ", " << segments << " segments");
             const Answers answers = run(scene, size, {layout, segments, 1, 1u << 20, 64});
-            if (!find_layout(layout).lossless) continue;
+            if (!answers_exactly(layout)) continue;
             if (first.lit.empty()) {
                 first = answers;
                 expect_as_oracle(scene, size, answers);
@@ -194,7 +200,7 @@ TEST_F(ShadowTest, CellsBandsAndBatchesDoNotMatter) {
     const glm::uvec2 size(40, 30);
     const Answers expected = run(scene, size, {"array", 2, 1, 1u << 20, 256});
     for (const std::string& layout : layout_names()) {
-        if (!find_layout(layout).lossless) continue;
+        if (!answers_exactly(layout)) continue;
         for (const ShadowSetup& setup : {ShadowSetup{layout, 8, 1, 1u << 20, 256}, ShadowSetup{layout, 2, 3, 1u << 20, 256},
                                          ShadowSetup{layout, 4, 3, 256, 256, true}}) {
             const Answers answers = run(scene, size, setup);
@@ -214,7 +220,7 @@ TEST_F(ShadowTest, LongLists) {
     for (const std::string& layout : layout_names()) {
         SCOPED_TRACE(layout);
         const Answers answers = run(scene, size, {layout, 1, 1, 1u << 20, 1});
-        if (!find_layout(layout).lossless) continue;
+        if (!answers_exactly(layout)) continue;
         if (first.lit.empty()) {
             first = answers;
             expect_as_oracle(scene, size, answers);

@@ -60,6 +60,10 @@ Iterator layout_begin(List list, Query query) {
     uint at = row_at(list.texel, step_of(query.t), count);
     uint word = first * WORDS + at / 32u, begin = first - (at & 31u);
     Iterator it = Iterator(count > 0u ? word_of(count > 0u ? word : 0u, end - begin) & kNone << (at & 31u) : 0u, word, begin, count > 0u ? end : begin);
+    if (it.x == 0u && it.w - it.z > 32u) {
+        it.z += 32u;
+        it.x = word_of(++it.y, it.w - it.z);
+    }
     if (query.all) {
         it = Iterator(list.texel + 1u, first, 0u, count);
         turn_to_any(it);
