@@ -162,9 +162,9 @@ TEST_F(ShadowTest, AgreeWithTheOracleInEveryLayout) {
         const glm::uvec2 size(50, 38);
         Answers first;
         for (const std::string& layout : layout_names()) {
+            if (!answers_exactly(layout)) continue;
             SCOPED_TRACE(testing::Message() << layout << ", " << segments << " segments");
             const Answers answers = run(scene, size, {layout, segments, 1, 1u << 20, 64});
-            if (!answers_exactly(layout)) continue;
             if (first.lit.empty()) {
                 first = answers;
                 expect_as_oracle(scene, size, answers);
@@ -200,7 +200,7 @@ TEST_F(ShadowTest, CellsBandsAndBatchesDoNotMatter) {
     const glm::uvec2 size(40, 30);
     const Answers expected = run(scene, size, {"array", 2, 1, 1u << 20, 256});
     for (const std::string& layout : layout_names()) {
-        if (!answers_exactly(layout)) continue;
+        if (!find_layout(layout).lossless) continue;
         for (const ShadowSetup& setup : {ShadowSetup{layout, 8, 1, 1u << 20, 256}, ShadowSetup{layout, 2, 3, 1u << 20, 256},
                                          ShadowSetup{layout, 4, 3, 256, 256, true}}) {
             const Answers answers = run(scene, size, setup);
@@ -218,9 +218,9 @@ TEST_F(ShadowTest, LongLists) {
     const glm::uvec2 size(12, 10);
     Answers first;
     for (const std::string& layout : layout_names()) {
+        if (!answers_exactly(layout)) continue;
         SCOPED_TRACE(layout);
         const Answers answers = run(scene, size, {layout, 1, 1, 1u << 20, 1});
-        if (!answers_exactly(layout)) continue;
         if (first.lit.empty()) {
             first = answers;
             expect_as_oracle(scene, size, answers);

@@ -4,7 +4,7 @@
 // Which region is a hash of the list. A list takes its places within it from the region's own counter, so that neighbours do not wait for one counter; where regions
 // begin is known when all lists have taken theirs: the sum of the counters before.
 // Based on: Vasilakis and Fudos 2012, "S-buffer: Sparsity-aware multi-fragment rendering", section 3, without its filling of half the regions from the other end
-// Memory: 16 bytes per range (20 with the depth at its exit), 8 bytes per list (its count and its place), 128 bytes of counters.
+// Memory: 16 bytes per range (20 with the depth at its exit), 12 bytes per list (its count, twice, and its place), 128 bytes of counters.
 
 uint region_of(List list) { return list.index % COUNTERS; }
 
