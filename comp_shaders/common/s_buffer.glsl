@@ -26,6 +26,10 @@ struct Query {
     bool all;
 };
 
+// Of the range that is emitted, by raster/conservative: its triangle's number among those of the tile's list, and the times of the shutter between which its cell lies.
+uint emitted_triangle = 0u;
+vec2 emitted_cell = vec2(0.0, 1.0);
+
 #include "layout_interface.glsl"
 
 List list_at(uint tile, uint texel) {

@@ -3,12 +3,6 @@
 // An invocation may go round loops 65,535 times in all on some drivers: longer lists stay as they are.
 const uint kMostSorted = 1500u;
 
-void sort_swap(uint a, uint b) {
-    Range range_a = fetch_range(a), range_b = fetch_range(b);
-    set_range(a, range_b);
-    set_range(b, range_a);
-}
-
 // The place at `root` of the heap [first, first + count) sinks to where both below it are no larger.
 void sink(uint first, uint root, uint count) {
     uint at = root;
@@ -17,7 +11,7 @@ void sink(uint first, uint root, uint count) {
         uint below = 2u * at + 1u;
         below += below + 1u < count && sort_key(first + below + 1u) > sort_key(first + below) ? 1u : 0u;
         more = sort_key(first + below) > sort_key(first + at);
-        if (more) sort_swap(first + at, first + below);
+        if (more) swap_ranges(first + at, first + below);
         at = below;
         more = more && 2u * at + 1u < count;
     }
@@ -28,7 +22,7 @@ void heap_sort(uint first, uint end) {
     if (count < 2u || count > kMostSorted) return;
     for (uint root = count / 2u; root > 0u; --root) sink(first, root - 1u, count);
     for (uint left = count - 1u; left > 0u; --left) {
-        sort_swap(first, first + left);
+        swap_ranges(first, first + left);
         sink(first, 0u, left);
     }
 }

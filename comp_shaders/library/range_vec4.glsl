@@ -9,3 +9,9 @@ Range fetch_range(uint place) {
     vec4 range = fetch_ranges(place);
     return Range(range.x, range.y, range.z, floatBitsToUint(range.w), fetch_exits(place));
 }
+
+void swap_ranges(uint a, uint b) {
+    Range range_a = fetch_range(a), range_b = fetch_range(b);
+    set_range(a, range_b);
+    set_range(b, range_a);
+}

@@ -55,6 +55,7 @@ void main() {
     float cell_start = float(cell);
     float per_cell = 1.0 / float(grid.cell_count);
 
+    emitted_cell = vec2(cell_start, cell_start + 1.0) * per_cell;
     uint begin = page.begin + params.list_first;
     uint end = max(page.end, begin);
     uint entries = inside ? min(end - begin, kListChunk) : 0u;
@@ -97,6 +98,7 @@ void main() {
                     uint cursor = 0u;
                     [[unroll]] for (uint r = 0u; r < 8u; ++r) cursor = r == row ? cursors[r] : cursor;
                     if (hit) {
+                        emitted_triangle = params.list_first + k + from;
                         vec2 span_of = range_times(times, cell_start, per_cell, slack);
                         layout_emit(list_at(tile, row * kTileSize + lane), cursor, Range(span_of.x, span_of.y, nearest, entry, nearest));
                     }

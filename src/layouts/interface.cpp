@@ -142,6 +142,7 @@ std::string size_text(const LayoutSize& size, size_t index, uint32_t binding) {
 std::string size_lists(const Layout& layout) {
     std::string lists, tiles;
     for (size_t i = 1; i < layout.sizes.size(); ++i) {
+        if (layout.sizes[i].listed) continue;
         const std::string entry = " VISIT(" + layout.sizes[i].name + ", " + std::to_string(i) + "u)";
         (layout.sizes[i].per == LayoutSize::Per::tile ? tiles : lists) += entry;
     }

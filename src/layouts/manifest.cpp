@@ -19,6 +19,7 @@ namespace gnomon {
 namespace {
 
 constexpr const char* kHint = "see docs/layouts.md";
+constexpr const char* kTriangles = "triangles";
 constexpr size_t kMostName = 40;
 constexpr size_t kMostBuffers = 12;  // Bindings from 16 to 39, beside those of the sizes.
 
@@ -170,7 +171,9 @@ void parse_size(Members& members, Layout& layout) {
     LayoutSize size;
     size.line = members.line();
     size.name = members.identifier("name");
-    size.per = members.one_of("per", kSizePer, "list");
+    size.listed = size.name == kTriangles;
+    size.per = members.one_of("per", kSizePer, size.listed ? "tile" : "list");
+    if (size.listed && size.per != LayoutSize::Per::tile) members.fail("per", "of the triangles is not 'tile'");
     size.as = members.one_of("as", kAs);
     const size_t same = size_named(layout, size.name);
     if (same == layout.sizes.size()) {
@@ -273,7 +276,13 @@ bool is_float(gpu::Texel format) {
 }
 
 bool Layout::keeps_counts() const {
-    return sizes.size() > 1 || sizes[0].as == LayoutSize::As::values || sizes[0].as == LayoutSize::As::offsets;
+    const auto computed = [](const LayoutSize& size) { return !size.listed; };
+    return std::any_of(sizes.begin() + 1, sizes.end(), computed) || sizes[0].as == LayoutSize::As::values ||
+           sizes[0].as == LayoutSize::As::offsets;
+}
+
+bool Layout::lists_triangles() const {
+    return std::any_of(sizes.begin(), sizes.end(), [](const LayoutSize& size) { return size.listed; });
 }
 
 bool Layout::counts_up() const {

@@ -16,7 +16,7 @@
 namespace gnomon {
 
 /// What a list or a tile takes of something. The first of a layout is always "ranges", the number of a list's ranges, which is
-/// counted; the others its layout_size_<name> computes.
+/// counted; "triangles" are listed; the others its layout_size_<name> computes.
 struct LayoutSize {
     enum class Per { list, tile };
     enum class As {
@@ -29,7 +29,8 @@ struct LayoutSize {
     std::string name;
     Per per = Per::list;
     As as = As::total;
-    size_t line = 0;  ///< Of the manifest; likewise below.
+    bool listed = false;  ///< "triangles", those of each tile's list: known before anything is counted.
+    size_t line = 0;      ///< Of the manifest; likewise below.
 };
 
 struct LayoutBuffer {
@@ -84,6 +85,8 @@ struct Layout {
     bool only_contains() const { return !lossless && counters.empty(); }
     /// The buffer exists, for such ranges.
     bool has(const LayoutBuffer& buffer) const { return exit_depth || !buffer.exit_only; }
+    /// It numbers the triangles of a tile's list, which only raster/conservative does.
+    bool lists_triangles() const;
     /// Places or counters are given out by atomics.
     bool counts_up() const;
 };

@@ -18,6 +18,10 @@ SBuffer s_buffer_of(const LightContext& light, const Bins& bins, const gpu::Buff
     const std::string shader = light.layout.stage("raster/" + light.raster);
     const bool orthographic = light.view.orthographic;
     const RasterSource source{light.geometry, bins, light.asked};
+    if (light.layout.lists_triangles() && light.raster != "conservative") {
+        throw Error(ErrorKind::usage, "raster '" + light.raster + "' does not number the triangles of a tile", "--layout",
+                    "use another layout than '" + light.layout.name + "', or --raster conservative");
+    }
     if (light.raster != "prism") {
         return {light.device, light.programs, walk_bins(light.programs, source, shader, orthographic), light.layout,
                 light.layout_faults};

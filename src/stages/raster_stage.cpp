@@ -35,6 +35,7 @@ public:
         return programs_.get(shader_, all);
     }
     std::vector<gpu::Binding> bindings() const override { return source_.bindings(); }
+    bool asked() const override { return source_.asked != nullptr; }
 
 private:
     Programs& programs_;

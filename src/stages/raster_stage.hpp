@@ -32,6 +32,8 @@ public:
     virtual void prepare(const Band& /*portion*/) {}
     /// Its lists are each one invocation's (common/write_lists.glsl).
     virtual bool keeps_list_state() const { return true; }
+    /// Its items are pages that were asked for.
+    virtual bool asked() const { return false; }
     virtual uint64_t source_bytes() const { return 0; }   ///< Of all portions.
     virtual uint32_t fragment_item() const { return 0; }  ///< RasterParams::fragment_item.
     virtual uint32_t entry_first() const { return 0; }    ///< RasterParams::entry_first.

@@ -28,7 +28,7 @@ SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<Raster
       programs_(programs),
       raster_(std::move(raster)),
       layout_(layout),
-      unbound_(device, layout.buffers.size() + 1),
+      unbound_(device, layout.buffers.size() + 2),
       faults_(faults) {
     item_count_ = raster_->item_count();
     list_count_ = uint64_t(item_count_) * kTileTexels;
@@ -193,7 +193,7 @@ void SBuffer::count() {
             const uint64_t offset = uint64_t(part.item_first) * kTileTexels * 4, bytes = uint64_t(items) * kTileTexels * 4;
             record_pass(
                 false, part,
-                kept ? gpu::Binding{"ListState", &counts, {}, offset, bytes} : unbound_.at(memory_.size(), "ListState"));
+                kept ? gpu::Binding{"ListState", &counts, {}, offset, bytes} : unbound_.at(memory_.size() + 1, "ListState"));
         }
     }
     totals_.push_back(recorder.download(range_totals_, 0, blocks * sizeof(glm::uvec2)));
@@ -214,6 +214,11 @@ void SBuffer::record_sizes(const gpu::Buffer& counts, uint64_t most_items) {
                                        : gpu::Buffer();
         const gpu::Buffer totals = device_.allocate("size_totals", blocks * sizeof(glm::uvec2));
         recorder.fill("sbuffer/size", totals, 0);
+        if (size.listed) {
+            record_triangles(known == sizes_.end() ? unkept : known->values, totals);
+            totals_.push_back(recorder.download(totals, 0, blocks * sizeof(glm::uvec2)));
+            continue;
+        }
         for (uint64_t first = 0; first < item_count_; first += most_items) {
             const uint64_t items = std::min<uint64_t>(most_items, item_count_ - first), lists = items * kTileTexels;
             const uint64_t each = tiles ? 4 : 4 * kTileTexels;
@@ -227,6 +232,16 @@ void SBuffer::record_sizes(const gpu::Buffer& counts, uint64_t most_items) {
         }
         totals_.push_back(recorder.download(totals, 0, blocks * sizeof(glm::uvec2)));
     }
+}
+
+// Those of each tile's list.
+void SBuffer::record_triangles(const gpu::Buffer& sizes, const gpu::Buffer& totals) {
+    std::vector<gpu::Binding> all = bindings({{"Sizes", &sizes}, {"SizeTotals", &totals}});
+    for (const gpu::Binding& binding : raster_->bindings()) {
+        if (binding.name != "triangles" && binding.name != "raster_vertices") all.push_back(binding);
+    }
+    device_.recorder().dispatch("sbuffer/size", programs_.get("sbuffer/triangles", {raster_->asked()}), all,
+                                params({0, item_count_}), groups_of(item_count_, 64));
 }
 
 const SBuffer::Counted& SBuffer::counted() const {
@@ -381,7 +396,7 @@ void SBuffer::fill(const Band& band) {
                        bytes = uint64_t(part.item_count) * kTileTexels * 4;
         record_pass(
             true, part,
-            cursors_ ? gpu::Binding{"ListState", &cursors_, {}, first, bytes} : unbound_.at(memory_.size(), "ListState"));
+            cursors_ ? gpu::Binding{"ListState", &cursors_, {}, first, bytes} : unbound_.at(memory_.size() + 1, "ListState"));
     }
     record_lists("sbuffer/finish", layout_.finish, parts);
     if (!layout_.counters.empty()) lost_ = device_.recorder().download(counters_, shared::kMostSizes * 4, 4);

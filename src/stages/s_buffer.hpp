@@ -61,6 +61,7 @@ private:
 
     void count();
     void record_sizes(const gpu::Buffer& counts, uint64_t most_items);
+    void record_triangles(const gpu::Buffer& sizes, const gpu::Buffer& totals);
     void hold(const Totals& held);
     void record_sums(const Totals& held);
     void record_pass(bool fill, const Band& part, const gpu::Binding& list_state);

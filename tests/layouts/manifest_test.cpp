@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "layouts/interface.hpp"
+#include "unit/io/throws.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -102,6 +103,26 @@ TEST(ManifestTest, OnlyRangesHaveASizeWhereNoneIsNamed) {
     EXPECT_EQ(layout.sizes[0].name, "ranges");
     EXPECT_FALSE(layout.keeps_counts());
     EXPECT_FALSE(layout.counts_up());
+}
+
+// They are listed, not computed: no counts of lists are needed for them.
+TEST(ManifestTest, TrianglesAreOfTiles) {
+    constexpr const char* kShared = R"({ "name": "shared", "sizes": [{ "name": "triangles", "as": "offsets" }],
+        "buffers": [{ "name": "listed", "type": "uvec2", "per": "triangles" }] })";
+    const Layout layout = parse_layout(kShared, "layout.json");
+    ASSERT_EQ(layout.sizes.size(), 2u);
+    EXPECT_TRUE(layout.sizes[1].listed);
+    EXPECT_EQ(layout.sizes[1].per, LayoutSize::Per::tile);
+    EXPECT_TRUE(layout.lists_triangles());
+    EXPECT_FALSE(layout.keeps_counts());
+    EXPECT_FALSE(parse_layout(kManifest, "layout.json").lists_triangles());
+    const std::string text = layout_interface(layout);
+    EXPECT_THAT(text, HasSubstr("uint first_triangles(Tile of)"));
+    EXPECT_THAT(text, HasSubstr("#define LAYOUT_TILE_SIZES\n"));
+    EXPECT_GNOMON_ERROR(parse_layout(R"({ "name": "a", "buffers": [],
+        "sizes": [{ "name": "triangles", "per": "list", "as": "values" }] })",
+                                     "layout.json"),
+                        ErrorKind::input, "of the triangles is not 'tile'");
 }
 
 TEST(InterfaceTest, Accessors) {

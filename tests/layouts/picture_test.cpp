@@ -54,7 +54,7 @@ TEST_F(PictureTest, SaysHowManyRangesWereLost) {
 TEST_F(PictureTest, IsTheSameWithinAnyBudget) {
     const Frame expected = validated_renderer().render(scene, poses, settings);
     uint64_t most_fills = 0, rendered = 0;
-    for (const char* layout : {"array", "linked", "paged", "jagged"}) {
+    for (const char* layout : {"array", "linked", "paged", "jagged", "bits"}) {
         settings.layout = layout;
         // Downwards until it does not fit, which is said.
         for (uint64_t budget = 2 * expected.stats.peak_bytes; budget > kMebibyte / 4; budget /= 2) {

@@ -150,15 +150,21 @@ MovingTriangles flying(uint32_t segments, uint32_t count, float size, uint32_t s
     return result;
 }
 
+// Ranges that only contain the true ones lead to more tests, and the same answers.
+bool answers_exactly(const std::string& name) {
+    const Layout layout = find_layout(name);
+    return layout.lossless || layout.only_contains();
+}
+
 TEST_F(ShadowTest, AgreeWithTheOracleInEveryLayout) {
     for (uint32_t segments : {1u, 2u}) {
         const MovingTriangles scene = flying(segments, 60, 0.4f, segments);
         const glm::uvec2 size(50, 38);
         Answers first;
         for (const std::string& layout : layout_names()) {
+            if (!answers_exactly(layout)) continue;
             SCOPED_TRACE(testing::Message() << layout << ", " << segments << " segments");
             const Answers answers = run(scene, size, {layout, segments, 1, 1u << 20, 64});
-            if (!find_layout(layout).lossless) continue;
             if (first.lit.empty()) {
                 first = answers;
                 expect_as_oracle(scene, size, answers);
@@ -212,9 +218,9 @@ TEST_F(ShadowTest, LongLists) {
     const glm::uvec2 size(12, 10);
     Answers first;
     for (const std::string& layout : layout_names()) {
+        if (!answers_exactly(layout)) continue;
         SCOPED_TRACE(layout);
         const Answers answers = run(scene, size, {layout, 1, 1, 1u << 20, 1});
-        if (!find_layout(layout).lossless) continue;
         if (first.lit.empty()) {
             first = answers;
             expect_as_oracle(scene, size, answers);

@@ -3,15 +3,13 @@
 // tested, and the answer of a test that asks the triangles is the same.
 // Memory: 8 bytes per range, 8 bytes per list (its count and its offset).
 
-const float kSteps = 65535.0;
+#include "library/rounded.glsl"
+
+const float kSteps = 65536.0;
 
 uint layout_open(List list) { return first_ranges(list); }
 void layout_emit(List list, inout uint cursor, Range range) {
-    uint enter = uint(clamp(floor(range.enter * kSteps), 0.0, kSteps)), leave = uint(clamp(ceil(range.leave * kSteps), 0.0, kSteps));
-    // The way back is rounded.
-    enter -= enter > 0u && float(enter) / kSteps > range.enter ? 1u : 0u;
-    leave += leave < 65535u && float(leave) / kSteps < range.leave ? 1u : 0u;
-    set_ranges(cursor, uvec2(enter | leave << 16u, range.entry));
+    set_ranges(cursor, uvec2(enter_step(range.enter, kSteps) | leave_step(range.leave, kSteps) << 16u, range.entry));
     ++cursor;
 }
 void layout_close(List list, uint cursor) {}
@@ -22,5 +20,5 @@ bool layout_more(Iterator it) { return it.x < it.y; }
 Range layout_next(inout Iterator it, Query query) {
     uvec2 range = fetch_ranges(it.x);
     ++it.x;
-    return Range(float(range.x & 65535u) / kSteps, float(range.x >> 16u) / kSteps, -kFarthest, range.y, -kFarthest);
+    return Range(enter_of(range.x & 65535u, kSteps), leave_of(range.x >> 16u, kSteps), -kFarthest, range.y, -kFarthest);
 }

@@ -43,6 +43,7 @@ TEST_F(CliLayoutsTest, Lists) {
     EXPECT_EQ(by_name.at("array-counter")["passes"], json({"count", "size", "prepare", "fill"}));
     EXPECT_EQ(by_name.at("paged")["bytes"], "12 lists + 68 pages");
     EXPECT_EQ(by_name.at("jagged")["bytes"], "1024 slots + 8 lists + 8 tiles");
+    EXPECT_EQ(by_name.at("bits")["bytes"], "40 triangles + 8 tiles");
     EXPECT_EQ(by_name.at("null")["bytes"], "0");
     EXPECT_EQ(by_name.at("no-depth")["methods"], json({"exact"}));
     EXPECT_FALSE(by_name.at("fixed")["lossless"]);
