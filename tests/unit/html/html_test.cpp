@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // HTML as text, and images in it.
-#include "reproduce/html.hpp"
+#include "html/html.hpp"
 
 #include <gmock/gmock.h>
 
 #include <gnomon/error.hpp>
 
 #include "io/png.hpp"
-#include "reproduce/picture.hpp"
+#include "html/image.hpp"
 
-namespace gnomon::reproduce {
+namespace gnomon::html {
 namespace {
 
 TEST(Html, TextAndAttributesAreEscaped) {
@@ -49,4 +49,4 @@ TEST(Pictures, AreBase64) {
 }
 
 }  // namespace
-}  // namespace gnomon::reproduce
+}  // namespace gnomon::html

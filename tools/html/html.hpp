@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace gnomon::reproduce {
+namespace gnomon::html {
 
 struct Attribute {
     std::string_view name;
@@ -30,10 +30,11 @@ public:
     /// head: HTML of each column's heading.
     explicit Table(const std::vector<std::string>& head);
 
-    /// cells: HTML, as many as headings.
-    void add(const std::vector<std::string>& cells);
+    /// cells: HTML, as many as headings. orders: as many, or none: what a column is sorted by where that is not its text.
+    void add(const std::vector<std::string>& cells, const std::vector<std::string>& orders = {});
 
-    std::string html() const;
+    /// class_name: one more of its box, for the style.
+    std::string html(const std::string& class_name = {}) const;
 
 private:
     std::string head_, body_;
@@ -42,4 +43,4 @@ private:
 /// `text` with each {{name}} replaced. Errors: ErrorKind::internal for a name that is not given.
 std::string filled(std::string_view text, const std::vector<std::pair<std::string_view, std::string>>& values);
 
-}  // namespace gnomon::reproduce
+}  // namespace gnomon::html

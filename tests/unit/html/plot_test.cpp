@@ -4,7 +4,7 @@
 
 #include <gmock/gmock.h>
 
-namespace gnomon::reproduce {
+namespace gnomon::html {
 namespace {
 
 using testing::ElementsAre;
@@ -40,4 +40,4 @@ TEST(Plots, PartsOfABarAreSideBySide) {
 }
 
 }  // namespace
-}  // namespace gnomon::reproduce
+}  // namespace gnomon::html

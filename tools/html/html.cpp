@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // HTML and SVG as text.
-#include "reproduce/html.hpp"
+#include "html/html.hpp"
 
 #include <algorithm>
 #include <gnomon/error.hpp>
 
-namespace gnomon::reproduce {
+namespace gnomon::html {
 namespace {
 
 std::string start_tag(std::string_view tag, std::initializer_list<Attribute> attributes) {
@@ -53,16 +53,21 @@ Table::Table(const std::vector<std::string>& head) {
     for (const std::string& heading : head) head_ += element("th", {{"scope", "col"}}, heading);
 }
 
-void Table::add(const std::vector<std::string>& cells) {
+void Table::add(const std::vector<std::string>& cells, const std::vector<std::string>& orders) {
     std::string row;
-    for (size_t i = 0; i < cells.size(); ++i)
-        row += i == 0 ? element("th", {{"scope", "row"}}, cells[i]) : element("td", cells[i]);
+    for (size_t i = 0; i < cells.size(); ++i) {
+        const std::string order = i < orders.size() ? orders[i] : "";
+        if (i == 0)
+            row += element("th", {{"scope", "row"}}, cells[i]);
+        else
+            row += order.empty() ? element("td", cells[i]) : element("td", {{"data-order", order}}, cells[i]);
+    }
     body_ += element("tr", row) + "\n";
 }
 
-std::string Table::html() const {
-    // Wide tables scroll on their own.
-    return element("div", {{"class", "table"}},
+std::string Table::html(const std::string& class_name) const {
+    // Wide tables scroll on their own, by keys too.
+    return element("div", {{"class", class_name.empty() ? "table" : "table " + class_name}, {"tabindex", "0"}},
                    element("table", element("thead", element("tr", head_)) + element("tbody", body_)));
 }
 
@@ -81,4 +86,4 @@ std::string filled(std::string_view text, const std::vector<std::pair<std::strin
     }
 }
 
-}  // namespace gnomon::reproduce
+}  // namespace gnomon::html

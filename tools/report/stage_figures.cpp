@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stacked stages by layout.
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+#include <iterator>
+#include <numeric>
+
+#include "html/bar_plot.hpp"
+#include "report/data_table.hpp"
+#include "report/figures.hpp"
+
+namespace gnomon::report {
+namespace {
+
+constexpr const char* kStages[] = {"clear", "count", "scan", "prepare", "fill", "finish", "query"};
+
+double sum_of(const html::Bar& bar) { return std::accumulate(bar.parts.begin(), bar.parts.end(), 0.0); }
+
+html::Bar bar_of(const Case& c) {
+    html::Bar bar{.name = c.again ? c.layout + ", again" : c.layout, .parts = {}, .value = {}, .floor = c.copy_ms};
+    for (const char* stage : kStages) {
+        const Times* times = c.stage(stage);
+        bar.parts.push_back(times != nullptr ? times->median : 0.0);
+    }
+    bar.value = shown(sum_of(bar)) + " ms";
+    return bar;
+}
+
+std::string caption_of(const html::BarPlot& plot) {
+    std::string caption;
+    const auto is_floor = [](const html::Bar& bar) { return bar.name == "null"; };
+    const auto first = std::find_if_not(plot.bars.begin(), plot.bars.end(), is_floor);
+    if (first != plot.bars.end()) {
+        const auto last = std::find_if_not(plot.bars.rbegin(), plot.bars.rend(), is_floor);
+        const double whole = sum_of(*last);
+        caption =
+            fmt::format("Building and one query of {} take least, {}; of {} most, {}, {:.0f} % of it the query.", first->name,
+                        first->value, last->name, last->value, whole > 0.0 ? 100.0 * last->parts.back() / whole : 0.0);
+    }
+    caption += " Parts are medians, so their sum need not be the median of the whole.";
+    if (!plot.floor_name.empty()) caption += " Dotted: what copying the bytes of the map takes on this device.";
+    if (plot.line) caption += " Dashed: the null layout, which counts and keeps nothing.";
+    return caption;
+}
+
+}  // namespace
+
+std::vector<Figure> stage_figures(const Sources& sources) {
+    std::vector<Figure> figures;
+    for (const BenchFile& file : sources.files()) {
+        for (const Setting& setting : settings_of(file)) {
+            html::BarPlot plot{.title = sources.title(file, setting.title()),
+                               .x_title = "ms, medians",
+                               .by_part = true,
+                               .part_names = {std::begin(kStages), std::end(kStages)},
+                               .line_name = "null layout",
+                               .width = 480.0};
+            for (const Case* c : setting.cases) {
+                plot.bars.push_back(bar_of(*c));
+                if (c->copy_ms) plot.floor_name = "copy of as many bytes";
+                if (c->layout == "null") plot.line = sum_of(plot.bars.back());
+            }
+            std::stable_sort(plot.bars.begin(), plot.bars.end(),
+                             [](const html::Bar& a, const html::Bar& b) { return sum_of(a) < sum_of(b); });
+            figures.push_back({sources.name(file, "stages", setting.title()), html::bar_plot(plot), caption_of(plot)});
+        }
+    }
+    return figures;
+}
+
+}  // namespace gnomon::report
