@@ -48,11 +48,13 @@ void write_text(const std::string& target, const std::string& text) {
 void write_figures(const fs::path& folder, const std::vector<Section>& sections) {
     std::set<std::string> taken;
     for (const Section& section : sections) {
-        for (const Figure& figure : section.figures) {
-            // Scenes may differ in characters that the names of files do not have.
-            std::string name = figure.name;
-            for (int i = 2; !taken.insert(name).second; ++i) name = figure.name + "-" + std::to_string(i);
-            io::write_file(folder / (name + ".svg"), html::svg_file(figure.plot));
+        for (const FigureGroup& group : section.groups) {
+            for (const Figure& figure : group.figures) {
+                // Scenes may differ in characters that the names of files do not have.
+                std::string name = figure.name;
+                for (int i = 2; !taken.insert(name).second; ++i) name = figure.name + "-" + std::to_string(i);
+                io::write_file(folder / (name + ".svg"), html::svg_file(figure.plot));
+            }
         }
     }
 }

@@ -25,6 +25,10 @@ double room_for(const BarPlot& plot, std::string Bar::*text, double share) {
     return std::min(room, share * plot.width) + kGap + kEdge;
 }
 
+size_t part_colour(const BarPlot& plot, size_t part) {
+    return part < plot.part_colours.size() ? plot.part_colours[part] : part;
+}
+
 std::string bar(const BarPlot& plot, size_t i, const Scale& x, double y) {
     const Bar& b = plot.bars[i];
     const double middle = y + 0.5 * kBarHeight;
@@ -33,8 +37,8 @@ std::string bar(const BarPlot& plot, size_t i, const Scale& x, double y) {
     for (size_t part = 0; part < b.parts.size(); ++part) {
         const double next = sum + b.parts[part];
         const std::string name = part < plot.part_names.size() ? b.name + ", " + plot.part_names[part] : b.name;
-        content += rectangle("part " + colour_class(plot.by_part ? part : i), x.at(sum), y, x.at(next) - x.at(sum), kBarHeight,
-                             fmt::format("{}: {:.4g}", name, b.parts[part]));
+        content += rectangle("part " + colour_class(plot.by_part ? part_colour(plot, part) : i), x.at(sum), y,
+                             x.at(next) - x.at(sum), kBarHeight, fmt::format("{}: {:.4g}", name, b.parts[part]));
         sum = next;
     }
     if (b.error > 0.0) content += line("error", x.at(std::max(0.0, sum - b.error)), middle, x.at(sum + b.error), middle);
@@ -46,7 +50,8 @@ std::string bar(const BarPlot& plot, size_t i, const Scale& x, double y) {
 std::vector<LegendEntry> entries_of(const BarPlot& plot) {
     using Kind = LegendEntry::Kind;
     std::vector<LegendEntry> entries;
-    for (size_t i = 0; i < plot.part_names.size(); ++i) entries.push_back({Kind::part, i, plot.part_names[i]});
+    for (size_t i = 0; i < plot.part_names.size(); ++i)
+        entries.push_back({Kind::part, part_colour(plot, i), plot.part_names[i]});
     if (!plot.floor_name.empty()) entries.push_back({Kind::dots, 0, plot.floor_name});
     if (plot.line && !plot.line_name.empty()) entries.push_back({Kind::floor, 0, plot.line_name});
     return entries;

@@ -26,6 +26,7 @@ struct BarPlot {
     std::vector<Bar> bars = {};
     bool by_part = false;                      ///< Colours are those of the parts, else those of the bars.
     std::vector<std::string> part_names = {};  ///< Not empty: with a legend below, and in what the pointer shows.
+    std::vector<size_t> part_colours = {};     ///< [0, 1, 2, ...]
     std::string floor_name = {};               ///< In the legend.
     std::optional<double> line = {};           ///< Where a dashed line crosses all bars.
     std::string line_name = {};                ///< In the legend.

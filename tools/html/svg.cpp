@@ -27,6 +27,8 @@ std::string swatch(const LegendEntry& entry, double x, double y) {
         case Kind::curve:
             return element("g", {{"class", colour_class(entry.series)}},
                            line("curve", x, y, x + 20.0, y) + marker(entry.series, x + 10.0, y, ""));
+        case Kind::point:
+            return element("g", {{"class", colour_class(entry.series)}}, marker(entry.series, x + 12.0, y, ""));
         case Kind::floor:
             return line("floor", x, y, x + 20.0, y);
         case Kind::dots:

@@ -37,9 +37,9 @@ std::string shortened(const std::string& text, double width);
 
 /// A line of a legend.
 struct LegendEntry {
-    enum class Kind { part, curve, floor, dots, zone };
+    enum class Kind { part, curve, point, floor, dots, zone };
     Kind kind = Kind::part;
-    size_t series = 0;  ///< Of parts and curves.
+    size_t series = 0;  ///< Of parts, curves and points.
     std::string name;
 };
 

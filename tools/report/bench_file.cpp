@@ -214,13 +214,13 @@ const char* to_text(Verdict verdict) {
     return names[static_cast<size_t>(verdict)];
 }
 
-std::optional<double> Case::count(const std::string& name) const {
-    const auto found = std::find_if(counts.begin(), counts.end(), [&](const auto& count) { return count.first == name; });
+std::optional<double> Case::count(const std::string& of) const {
+    const auto found = std::find_if(counts.begin(), counts.end(), [&](const auto& pair) { return pair.first == of; });
     return found == counts.end() ? std::nullopt : std::optional(found->second);
 }
 
-const Times* Case::stage(const std::string& name) const {
-    const auto found = stages.find(name);
+const Times* Case::stage(const std::string& of) const {
+    const auto found = stages.find(of);
     return found == stages.end() ? nullptr : &found->second;
 }
 

@@ -53,8 +53,8 @@ struct Case {
     std::optional<Texels> texels;                        ///< None: not counted.
     std::optional<double> copy_ms;                       ///< To copy as many bytes as the map has.
 
-    std::optional<double> count(const std::string& name) const;
-    const Times* stage(const std::string& name) const;  ///< nullptr: not measured.
+    std::optional<double> count(const std::string& of) const;
+    const Times* stage(const std::string& of) const;  ///< nullptr: not measured.
 };
 
 struct Axis {

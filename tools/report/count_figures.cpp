@@ -91,7 +91,8 @@ std::vector<Figure> count_figures(const Sources& sources) {
             });
             if (cases.empty()) continue;
             figures.push_back({sources.name(file, "counts", setting.title()),
-                               count_plot(sources, cases, sources.title(file, setting.title())), caption_of(cases)});
+                               count_plot(sources, cases, sources.title(file, setting.title())), caption_of(cases),
+                               setting.is_first});
         }
     }
     return figures;

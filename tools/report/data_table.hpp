@@ -28,7 +28,7 @@ Cell ratio_cell(const std::optional<double>& value);
 
 struct Column {
     std::string name;
-    std::string unit;  ///< Empty: none, or not one.
+    std::string unit = {};  ///< Empty: none, or not one.
     bool is_text = false;
 };
 

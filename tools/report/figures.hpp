@@ -10,10 +10,15 @@
 
 namespace gnomon::report {
 
+/// Floors further below the least than this are said and not drawn where scales are logarithmic: they would leave the others no
+/// room.
+constexpr double kFloorWithin = 4.0;
+
 struct Figure {
     std::string name;  ///< Of its file, without .svg: letters, digits and hyphens.
     html::Plot plot;
-    std::string caption;  ///< A sentence or two that say what is seen.
+    std::string caption;    ///< A sentence or two that say what is seen.
+    bool is_first = false;  ///< Of its scene: it stands for the others.
 };
 
 /// What figures have in common: the files, and which colour a layout has.

@@ -19,7 +19,6 @@ using namespace html;
 
 constexpr double kWidth = 480.0, kHeight = 340.0, kLeft = 64.0, kRight = 16.0, kTop = 14.0, kBottom = 48.0;
 constexpr double kMebibyte = 1024.0 * 1024.0;
-constexpr double kFloorWithin = 8.0;  // Of the fastest query: a floor far below would leave the others no room.
 
 struct Point {
     const Case* of = nullptr;
@@ -44,11 +43,14 @@ std::string names_of(const std::vector<Point>& points) {
     for (const Point* p : order) {
         const std::string name = shortened(p->of->layout, 130.0);
         const double wide = text_width(name);
-        const Box places[] = {{p->x + 7.0, p->y - 7.0, p->x + 7.0 + wide, p->y + 7.0},
+        // Of one on the front the steps leave to the right.
+        const Box right = {p->x + 7.0, p->y - 7.0, p->x + 7.0 + wide, p->y + 7.0},
+                  upper = {p->x + 4.0, p->y - 19.0, p->x + 4.0 + wide, p->y - 5.0};
+        const Box places[] = {p->on_front ? upper : right,
+                              p->on_front ? right : upper,
                               {p->x - 7.0 - wide, p->y - 7.0, p->x - 7.0, p->y + 7.0},
                               {p->x - 0.5 * wide, p->y - 20.0, p->x + 0.5 * wide, p->y - 6.0},
                               {p->x - 0.5 * wide, p->y + 6.0, p->x + 0.5 * wide, p->y + 20.0},
-                              {p->x + 4.0, p->y - 19.0, p->x + 4.0 + wide, p->y - 5.0},
                               {p->x + 4.0, p->y + 5.0, p->x + 4.0 + wide, p->y + 19.0}};
         for (const Box& box : places) {
             const bool is_inside =
@@ -96,7 +98,7 @@ Figure front_figure(const Sources& sources, const Setting& setting, const std::v
     std::optional<double> null_ms;
     for (const Case* c : cases) {
         const double bytes = *c->count("map_bytes") / kMebibyte, ms = c->stage("query")->median;
-        if (c->layout == "null") {
+        if (c->layout == kNullLayout) {
             null_ms = ms;
             continue;
         }
@@ -141,7 +143,7 @@ Figure front_figure(const Sources& sources, const Setting& setting, const std::v
     std::vector<std::string> on_front, not_all;
     std::string marks;
     for (const Case* c : cases) {
-        if (c->layout == "null") continue;
+        if (c->layout == kNullLayout) continue;
         const double bytes = *c->count("map_bytes") / kMebibyte, ms = c->stage("query")->median;
         points.push_back({c, x.at(bytes), y.at(ms), front.contains(c)});
         if (front.contains(c)) on_front.push_back(c->layout);
@@ -149,7 +151,7 @@ Figure front_figure(const Sources& sources, const Setting& setting, const std::v
         const size_t colour = sources.colour_of(c->layout);
         marks += element("g", {{"class", colour_class(colour)}},
                          marker(colour, x.at(bytes), y.at(ms), fmt::format("{}: {:.4g} MiB, {:.4g} ms", c->layout, bytes, ms)));
-        entries.push_back({LegendEntry::Kind::curve, colour, c->layout});
+        entries.push_back({LegendEntry::Kind::point, colour, c->layout});
     }
     content += front_line(points) + marks + names_of(points);
     if (null_line) entries.push_back({LegendEntry::Kind::floor, 0, "null layout"});
@@ -169,7 +171,8 @@ Figure front_figure(const Sources& sources, const Setting& setting, const std::v
     return {
         sources.name(*setting.file, "front", setting.title()),
         {"front", sources.title(*setting.file, setting.title()), kWidth, kHeight + below.height + 8.0, content + below.content},
-        caption};
+        caption,
+        setting.is_first};
 }
 
 }  // namespace
@@ -181,7 +184,7 @@ std::vector<Figure> front_figures(const Sources& sources) {
             std::vector<const Case*> cases = cases_with_bytes(setting);
             // A logarithm has no 0.
             std::erase_if(cases, [](const Case* c) {
-                return c->layout != "null" && !(*c->count("map_bytes") > 0.0 && c->stage("query")->median > 0.0);
+                return c->layout != kNullLayout && !(*c->count("map_bytes") > 0.0 && c->stage("query")->median > 0.0);
             });
             const auto whole = std::count_if(cases.begin(), cases.end(), [](const Case* c) { return !answers_less(*c); });
             if (whole > 0) figures.push_back(front_figure(sources, setting, cases));

@@ -51,13 +51,17 @@ std::string whose(const std::vector<std::string>& layouts) {
     return layouts.size() > kNamed ? text + fmt::format(" and {} more", layouts.size() - kNamed) : text;
 }
 
+std::string short_name(const std::vector<std::string>& layouts) {
+    return layouts.size() > 1 ? layouts[0] + " and others" : layouts[0];
+}
+
 std::string bin_text(const Lengths& bin) {
     return bin.from == bin.to ? shown(static_cast<double>(bin.from))
                               : shown(static_cast<double>(bin.from)) + " to " + shown(static_cast<double>(bin.to));
 }
 
 Plot length_plot(const std::vector<Lengths>& lengths, const std::string& title, bool& logarithmic) {
-    constexpr double kHeight = 260.0, kLeft = 64.0, kRight = 12.0, kTop = 24.0, kBottom = 48.0;
+    constexpr double kHeight = 260.0, kLeft = 84.0, kRight = 12.0, kTop = 24.0, kBottom = 48.0;
     double least = 0.0, most = 1.0;
     for (const Lengths& bin : lengths) {
         const auto lists = static_cast<double>(bin.lists);
@@ -158,10 +162,12 @@ std::vector<Figure> length_figures(const Sources& sources) {
             const auto groups =
                 grouped<std::vector<Lengths>>(setting, [](const Case& c) { return c.lengths.empty() ? nullptr : &c.lengths; });
             for (const auto& group : groups) {
-                const std::string what = groups.size() > 1 ? setting.title() + ", " + group.layouts[0] : setting.title();
+                const std::string what =
+                    groups.size() > 1 ? setting.title() + ", " + short_name(group.layouts) : setting.title();
                 bool logarithmic = false;
                 const Plot plot = length_plot(group.value, sources.title(file, what), logarithmic);
-                figures.push_back({sources.name(file, "lengths", what), plot, length_caption(group, logarithmic)});
+                figures.push_back(
+                    {sources.name(file, "lengths", what), plot, length_caption(group, logarithmic), setting.is_first});
             }
         }
     }
@@ -174,7 +180,8 @@ std::vector<Figure> texel_figures(const Sources& sources) {
         for (const Setting& setting : settings_of(file)) {
             const auto groups = grouped<Texels>(setting, [](const Case& c) { return c.texels ? &*c.texels : nullptr; });
             for (const auto& group : groups) {
-                const std::string what = groups.size() > 1 ? setting.title() + ", " + group.layouts[0] : setting.title();
+                const std::string what =
+                    groups.size() > 1 ? setting.title() + ", " + short_name(group.layouts) : setting.title();
                 const std::vector<uint32_t>& ranges = group.value.ranges;
                 const uint32_t most = *std::max_element(ranges.begin(), ranges.end());
                 const double sum = std::accumulate(ranges.begin(), ranges.end(), 0.0);
@@ -182,7 +189,8 @@ std::vector<Figure> texel_figures(const Sources& sources) {
                     {sources.name(file, "texels", what), texel_plot(group.value, most, sources.title(file, what)),
                      fmt::format("The light's view, brought down to {}x{}: {} ranges per texel in the mean and {} at most; {}.",
                                  group.value.width, group.value.height, shown(sum / static_cast<double>(ranges.size())),
-                                 shown(most), whose(group.layouts))});
+                                 shown(most), whose(group.layouts)),
+                     setting.is_first});
             }
         }
     }

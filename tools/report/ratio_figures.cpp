@@ -33,10 +33,11 @@ std::string mark(const Comparison& c, const Scale& x, double y) {
     return element("g", {{"class", colour_class(colour)}}, content);
 }
 
-std::string caption_of(const BenchFile& file, const std::vector<const Comparison*>& shown_ones, const std::string& stage) {
+std::string caption_of(const BenchFile& file, const std::vector<const Comparison*>& rows, const Comparison* null,
+                       const std::string& stage) {
     size_t verdicts[4] = {};
     std::string again;
-    for (const Comparison* c : shown_ones) {
+    for (const Comparison* c : rows) {
         if (!file.cases[c->of].again) {
             ++verdicts[static_cast<size_t>(c->verdict)];
             continue;
@@ -51,7 +52,7 @@ std::string caption_of(const BenchFile& file, const std::vector<const Comparison
                "intervals of the median of paired ratios; grey: within 2 %, which counts as the same.",
                file.baseline, stage, count(Verdict::faster), count(Verdict::slower), count(Verdict::same),
                count(Verdict::undecided)) +
-           again;
+           again + (null != nullptr ? fmt::format(" The null layout, the floor, is at {:.3f}.", null->ratio) : "");
 }
 
 Plot ratio_plot(const BenchFile& file, const std::vector<const Comparison*>& rows, const std::string& title) {
@@ -90,10 +91,16 @@ std::vector<Figure> ratio_figures(const Sources& sources, const std::string& sta
     for (const BenchFile& file : sources.files()) {
         for (const Setting& setting : settings_of(file)) {
             std::vector<const Comparison*> rows;
-            for (const Comparison& c : file.comparisons)
-                if (c.stage == stage &&
-                    std::find(setting.cases.begin(), setting.cases.end(), &file.cases[c.of]) != setting.cases.end())
+            const Comparison* null = nullptr;
+            for (const Comparison& c : file.comparisons) {
+                const Case& of = file.cases[c.of];
+                if (c.stage != stage || of.scene != setting.scene || of.values != setting.values) continue;
+                // A floor, far from all others: it would leave them no room.
+                if (of.layout == kNullLayout)
+                    null = &c;
+                else
                     rows.push_back(&c);
+            }
             if (rows.empty()) continue;
             // The A/A row first: what is no further from 1 than this is noise.
             std::stable_sort(rows.begin(), rows.end(), [&](const Comparison* a, const Comparison* b) {
@@ -102,7 +109,7 @@ std::vector<Figure> ratio_figures(const Sources& sources, const std::string& sta
             });
             const std::string title = sources.title(file, fmt::format("{}, {}", setting.title(), stage));
             figures.push_back({sources.name(file, "ratios-" + stage, setting.title()), ratio_plot(file, rows, title),
-                               caption_of(file, rows, stage)});
+                               caption_of(file, rows, null, stage), setting.is_first});
         }
     }
     return figures;

@@ -15,7 +15,7 @@ namespace {
 
 using namespace html;
 
-// More are folded away: the first say what the others are like.
+// Of more figures those are shown that stand for the others, of longer tables none: the rest is folded away.
 constexpr size_t kShownFigures = 6;
 constexpr size_t kShownRows = 60;
 
@@ -29,33 +29,41 @@ std::string file_html(const BenchFile& file, bool several) {
     return several ? element("div", {{"class", "file"}}, content) : content;
 }
 
-std::string figures_html(const std::vector<Figure>& figures) {
-    std::string first, more;
-    for (size_t i = 0; i < figures.size(); ++i)
-        (i < kShownFigures ? first : more) += figure(figures[i].plot, figures[i].caption);
-    std::string content = first.empty() ? "" : element("div", {{"class", "plots"}}, first);
-    if (!more.empty())
-        content += element("details", element("summary", fmt::format("{} more figures", figures.size() - kShownFigures)) +
-                                          element("div", {{"class", "plots"}}, more));
-    return content;
+std::string plots(const std::string& content) { return element("div", {{"class", "plots"}}, content); }
+
+std::string folded(const std::string& summary, const std::string& content) {
+    return element("details", element("summary", escaped(summary)) + content) + "\n";
+}
+
+std::string group_html(const FigureGroup& group) {
+    std::string open, more;
+    size_t more_count = 0;
+    for (const Figure& f : group.figures) {
+        const bool is_open = !group.is_folded && (f.is_first || group.figures.size() <= kShownFigures);
+        (is_open ? open : more) += figure(f.plot, f.caption);
+        more_count += is_open ? 0 : 1;
+    }
+    const std::string title = group.title.empty() || group.is_folded ? "" : heading(3, group.title);
+    const std::string summary =
+        group.is_folded ? fmt::format("{}: {} figures", group.title, more_count) : fmt::format("{} more figures", more_count);
+    return title + (open.empty() ? "" : plots(open)) + (more.empty() ? "" : folded(summary, plots(more)));
 }
 
 std::string table_html(const DataTable& table) {
     const std::string content = element("p", {{"class", "note"}}, escaped(table.caption)) + table.html();
     if (table.rows.size() <= kShownRows) return heading(3, table.title) + content;
-    return element("details",
-                   element("summary", escaped(fmt::format("{}: {} rows", table.title, table.rows.size()))) + content);
+    return folded(fmt::format("{}: {} rows", table.title, table.rows.size()), content);
 }
 
 std::string section_html(const Section& section) {
     std::string content = heading(2, section.title, section.id);
     if (!section.note.empty()) content += element("p", escaped(section.note));
-    if (section.figures.empty() && section.tables.empty())
+    if (section.groups.empty() && section.tables.empty())
         content += element("p", {{"class", "note"}}, escaped(section.nothing));
     // What is summed up first, then what it looks like, then all of it.
     size_t next = 0;
     if (!section.tables.empty() && section.tables[0].name == "summary") content += table_html(section.tables[next++]);
-    content += figures_html(section.figures);
+    for (const FigureGroup& group : section.groups) content += group_html(group);
     for (; next < section.tables.size(); ++next) content += table_html(section.tables[next]);
     return content;
 }

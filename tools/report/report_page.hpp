@@ -11,12 +11,19 @@
 
 namespace gnomon::report {
 
+/// Figures of one kind, one for each setting.
+struct FigureGroup {
+    std::string title;  ///< Empty: the section has no other.
+    std::vector<Figure> figures;
+    bool is_folded = false;  ///< Else the first are open.
+};
+
 /// What is told together.
 struct Section {
     std::string id = {};
     std::string title = {};
     std::string note = {};  ///< Text before the figures; empty: none.
-    std::vector<Figure> figures = {};
+    std::vector<FigureGroup> groups = {};
     std::vector<DataTable> tables = {};
     std::string nothing = {};  ///< Why there is neither, where there is neither.
 };

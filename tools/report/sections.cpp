@@ -11,8 +11,10 @@
 namespace gnomon::report {
 namespace {
 
-void append(auto& to, auto more) {
-    to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+std::vector<FigureGroup> one_group(std::vector<Figure> figures) {
+    std::vector<FigureGroup> groups;
+    if (!figures.empty()) groups.push_back({"", std::move(figures)});
+    return groups;
 }
 
 /// How far apart the method finds the baseline and itself.
@@ -70,7 +72,7 @@ Section verdicts(const Sources& sources) {
     if (DataTable summary = summary_table(sources.files()); !summary.rows.empty()) section.tables.push_back(std::move(summary));
     for (const std::string& stage : compared_stages(sources.files())) {
         section.tables.push_back(verdict_table(sources.files(), stage));
-        append(section.figures, ratio_figures(sources, stage));
+        section.groups.push_back({"The " + stage, ratio_figures(sources, stage), !section.groups.empty()});
     }
     return section;
 }
@@ -82,8 +84,9 @@ Section with_table(Section section, DataTable table) {
 
 Section axes(const Sources& sources) {
     Section section{.id = "axes", .title = "Along the axes", .nothing = "No axis has more than one value."};
-    append(section.figures, sweep_figures(sources, "query"));
-    append(section.figures, sweep_figures(sources, "build"));
+    for (const char* stage : {"query", "build"})
+        if (std::vector<Figure> figures = sweep_figures(sources, stage); !figures.empty())
+            section.groups.push_back({std::string("The ") + stage, std::move(figures)});
     return section;
 }
 
@@ -96,25 +99,26 @@ std::vector<Section> sections_of(const std::vector<BenchFile>& files) {
         sections.push_back(
             with_table({.id = "files", .title = "The files side by side", .nothing = "The files have no case in common."},
                        files_table(files)));
-    sections.push_back(with_table({.id = "stages", .title = "Stages", .figures = stage_figures(sources)}, times_table(files)));
+    sections.push_back(
+        with_table({.id = "stages", .title = "Stages", .groups = one_group(stage_figures(sources))}, times_table(files)));
     sections.push_back(axes(sources));
     sections.push_back(with_table({.id = "bytes",
                                    .title = "Bytes and query time",
-                                   .figures = front_figures(sources),
+                                   .groups = one_group(front_figures(sources)),
                                    .nothing = "The bytes of the maps were not counted."},
                                   front_table(files)));
     sections.push_back(with_table({.id = "counts",
                                    .title = "Counts per query",
-                                   .figures = count_figures(sources),
+                                   .groups = one_group(count_figures(sources)),
                                    .nothing = "Nothing was counted in this run."},
                                   counts_table(files)));
     sections.push_back({.id = "lists",
                         .title = "Lengths of lists",
-                        .figures = length_figures(sources),
+                        .groups = one_group(length_figures(sources)),
                         .nothing = "The lengths of lists were not counted in this run."});
     sections.push_back({.id = "texels",
                         .title = "Ranges per texel",
-                        .figures = texel_figures(sources),
+                        .groups = one_group(texel_figures(sources)),
                         .nothing = "Ranges per texel were not counted in this run."});
     sections.push_back(
         with_table({.id = "skipped", .title = "Skipped", .nothing = "No case was skipped."}, skipped_table(files)));

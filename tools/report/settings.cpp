@@ -31,7 +31,11 @@ std::vector<Setting> settings_of(const BenchFile& file) {
     for (const Case& c : file.cases) {
         auto found = std::find_if(settings.begin(), settings.end(),
                                   [&](const Setting& s) { return s.scene == c.scene && s.values == c.values; });
-        if (found == settings.end()) found = settings.insert(settings.end(), {&file, c.scene, c.values, {}});
+        if (found == settings.end()) {
+            const bool is_first =
+                std::none_of(settings.begin(), settings.end(), [&](const Setting& s) { return s.scene == c.scene; });
+            found = settings.insert(settings.end(), {&file, c.scene, c.values, {}, is_first});
+        }
         found->cases.push_back(&c);
     }
     return settings;
@@ -51,7 +55,7 @@ std::vector<Sweep> sweeps_of(const BenchFile& file) {
             values[axis].clear();
             auto found = std::find_if(sweeps.begin() + first, sweeps.end(),
                                       [&](const Sweep& s) { return s.scene == c.scene && s.values == values; });
-            if (found == sweeps.end()) found = sweeps.insert(sweeps.end(), {&file, axis, c.scene, values, {}});
+            if (found == sweeps.end()) found = sweeps.insert(sweeps.end(), {&file, axis, c.scene, values, {}, false});
             std::vector<const Case*>& cases = found->layouts[c.layout];
             cases.resize(along.size());
             cases[static_cast<size_t>(place - along.begin())] = &c;
@@ -62,6 +66,9 @@ std::vector<Sweep> sweeps_of(const BenchFile& file) {
             return layout.second.size() - std::count(layout.second.begin(), layout.second.end(), nullptr) > 1;
         });
     });
+    for (auto sweep = sweeps.begin(); sweep != sweeps.end(); ++sweep)
+        sweep->is_first = std::none_of(sweeps.begin(), sweep,
+                                       [&](const Sweep& s) { return s.scene == sweep->scene && s.axis == sweep->axis; });
     return sweeps;
 }
 
@@ -121,6 +128,6 @@ std::vector<std::string> layouts_of(const std::vector<BenchFile>& files) {
     return layouts;
 }
 
-bool answers_less(const Case& c) { return c.layout == "null" || c.count("lost").value_or(0.0) > 0.0; }
+bool answers_less(const Case& c) { return c.layout == kNullLayout || c.count("lost").value_or(0.0) > 0.0; }
 
 }  // namespace gnomon::report

@@ -17,6 +17,7 @@ struct Setting {
     std::string scene;
     std::vector<std::string> values;  ///< Of the file's axes.
     std::vector<const Case*> cases;   ///< As in the file.
+    bool is_first = false;            ///< Of its scene.
 
     /// "random-cubes, shadow-res 256": with those axes of which the file has several values.
     std::string title() const;
@@ -32,6 +33,7 @@ struct Sweep {
     std::string scene;
     std::vector<std::string> values;                          ///< Of the file's axes; that of `axis` does not matter.
     std::map<std::string, std::vector<const Case*>> layouts;  ///< By layout: a case for each value of the axis; nullptr: none.
+    bool is_first = false;                                    ///< Of its scene and axis.
 
     /// As Setting::title, without the axis.
     std::string title() const;
@@ -60,6 +62,9 @@ std::set<const Case*> front_of(const std::vector<const Case*>& cases);
 
 /// The layouts of all files in the order of their first cases: their numbers are their colours on a page.
 std::vector<std::string> layouts_of(const std::vector<BenchFile>& files);
+
+/// The layout that keeps no ranges: what no layout can be faster than.
+inline constexpr const char* kNullLayout = "null";
 
 /// Its answers are not those of the others: it keeps no ranges (null), or it has lost some.
 bool answers_less(const Case& c);

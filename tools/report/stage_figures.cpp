@@ -14,6 +14,7 @@ namespace gnomon::report {
 namespace {
 
 constexpr const char* kStages[] = {"clear", "count", "scan", "prepare", "fill", "finish", "query"};
+constexpr size_t kColours[] = {7, 4, 3, 5, 2, 1, 0};
 
 double sum_of(const html::Bar& bar) { return std::accumulate(bar.parts.begin(), bar.parts.end(), 0.0); }
 
@@ -29,7 +30,7 @@ html::Bar bar_of(const Case& c) {
 
 std::string caption_of(const html::BarPlot& plot) {
     std::string caption;
-    const auto is_floor = [](const html::Bar& bar) { return bar.name == "null"; };
+    const auto is_floor = [](const html::Bar& bar) { return bar.name == kNullLayout; };
     const auto first = std::find_if_not(plot.bars.begin(), plot.bars.end(), is_floor);
     if (first != plot.bars.end()) {
         const auto last = std::find_if_not(plot.bars.rbegin(), plot.bars.rend(), is_floor);
@@ -54,16 +55,18 @@ std::vector<Figure> stage_figures(const Sources& sources) {
                                .x_title = "ms, medians",
                                .by_part = true,
                                .part_names = {std::begin(kStages), std::end(kStages)},
+                               .part_colours = {std::begin(kColours), std::end(kColours)},
                                .line_name = "null layout",
                                .width = 480.0};
             for (const Case* c : setting.cases) {
                 plot.bars.push_back(bar_of(*c));
                 if (c->copy_ms) plot.floor_name = "copy of as many bytes";
-                if (c->layout == "null") plot.line = sum_of(plot.bars.back());
+                if (c->layout == kNullLayout) plot.line = sum_of(plot.bars.back());
             }
             std::stable_sort(plot.bars.begin(), plot.bars.end(),
                              [](const html::Bar& a, const html::Bar& b) { return sum_of(a) < sum_of(b); });
-            figures.push_back({sources.name(file, "stages", setting.title()), html::bar_plot(plot), caption_of(plot)});
+            figures.push_back(
+                {sources.name(file, "stages", setting.title()), html::bar_plot(plot), caption_of(plot), setting.is_first});
         }
     }
     return figures;

@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "html/line_plot.hpp"
@@ -19,7 +20,7 @@ constexpr double kLogarithmicFrom = 12.0;  // The most over the least, above whi
 html::PlotSeries series_of(const Sources& sources, const std::string& layout, const std::vector<const Case*>& cases,
                            const std::vector<double>& x, const std::string& stage) {
     html::PlotSeries series{.name = layout, .points = {}, .colour = sources.colour_of(layout)};
-    if (layout == "null") series.kind = Kind::floor;
+    if (layout == kNullLayout) series.kind = Kind::floor;
     for (size_t i = 0; i < cases.size(); ++i) {
         const Times* times = cases[i] != nullptr ? cases[i]->stage(stage) : nullptr;
         if (times == nullptr) continue;
@@ -31,7 +32,7 @@ html::PlotSeries series_of(const Sources& sources, const std::string& layout, co
 }
 
 html::PlotSeries copy_series(const Sweep& sweep, const std::vector<double>& x) {
-    html::PlotSeries series{.name = "copy of the map of " + sweep.file->baseline, .points = {}, .kind = Kind::dots};
+    html::PlotSeries series{.name = "a copy of the map of " + sweep.file->baseline, .points = {}, .kind = Kind::dots};
     const auto cases = sweep.layouts.find(sweep.file->baseline);
     if (cases == sweep.layouts.end()) return series;
     for (size_t i = 0; i < cases->second.size(); ++i)
@@ -54,6 +55,26 @@ bool is_wide(const std::vector<html::PlotSeries>& series) {
         for (const html::PlotBand& band : s.bands) least = std::min(least, band.low);
     }
     return least > 0.0 && most / least >= kLogarithmicFrom;
+}
+
+/// Says which floors are left out.
+std::string drop_far_floors(std::vector<html::PlotSeries>& series) {
+    const auto least = [](const html::PlotSeries& s) {
+        return std::min_element(s.points.begin(), s.points.end(), [](const auto& a, const auto& b) { return a.y < b.y; })->y;
+    };
+    double fastest = std::numeric_limits<double>::infinity();
+    for (const html::PlotSeries& s : series)
+        if (s.kind == Kind::curve) fastest = std::min(fastest, least(s));
+    std::string text;
+    std::erase_if(series, [&](const html::PlotSeries& s) {
+        const bool is_far = s.kind != Kind::curve && std::isfinite(fastest) && least(s) * kFloorWithin < fastest;
+        if (is_far)
+            text +=
+                fmt::format(" Below the plot, a floor: {}, {} to {} ms.", s.kind == Kind::floor ? "the null layout" : s.name,
+                            shown(s.points.front().y), shown(s.points.back().y));
+        return is_far;
+    });
+    return text;
 }
 
 std::string caption_of(const Sweep& sweep, const html::LinePlot& plot, const std::string& stage) {
@@ -103,9 +124,10 @@ std::vector<Figure> sweep_figures(const Sources& sources, const std::string& sta
             if (stage == "build") plot.series.push_back(copy_series(sweep, plot.x_ticks));
             std::erase_if(plot.series, [](const html::PlotSeries& s) { return s.points.empty(); });
             if (plot.series.empty()) continue;
+            const std::string undrawn = drop_far_floors(plot.series);
             plot.logarithmic_y = is_wide(plot.series);
             figures.push_back({sources.name(file, stage, axis.name + " " + sweep.title()), html::line_plot(plot),
-                               caption_of(sweep, plot, stage)});
+                               caption_of(sweep, plot, stage) + undrawn, sweep.is_first});
         }
     }
     return figures;
