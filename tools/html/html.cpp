@@ -8,12 +8,18 @@
 namespace gnomon::html {
 namespace {
 
-std::string start_tag(std::string_view tag, std::initializer_list<Attribute> attributes) {
+std::string start_tag(std::string_view tag, const std::vector<Attribute>& attributes) {
     std::string text = "<";
     text.append(tag);
     for (const Attribute& attribute : attributes)
         text.append(" ").append(attribute.name).append("=\"").append(escaped(attribute.value)).append("\"");
     return text.append(">");
+}
+
+// Attributes without a value are left out.
+std::string cell(std::string_view tag, std::vector<Attribute> attributes, std::string_view content) {
+    std::erase_if(attributes, [](const Attribute& attribute) { return attribute.value.empty(); });
+    return element(tag, attributes, content);
 }
 
 }  // namespace
@@ -41,26 +47,24 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-std::string element(std::string_view tag, std::initializer_list<Attribute> attributes, std::string_view content) {
+std::string element(std::string_view tag, const std::vector<Attribute>& attributes, std::string_view content) {
     return start_tag(tag, attributes).append(content).append("</").append(tag).append(">");
 }
 
-std::string empty_element(std::string_view tag, std::initializer_list<Attribute> attributes) {
-    return start_tag(tag, attributes);
-}
+std::string empty_element(std::string_view tag, const std::vector<Attribute>& attributes) { return start_tag(tag, attributes); }
 
-Table::Table(const std::vector<std::string>& head) {
-    for (const std::string& heading : head) head_ += element("th", {{"scope", "col"}}, heading);
+Table::Table(const std::vector<std::string>& head, std::vector<bool> are_text) : are_text_(std::move(are_text)) {
+    are_text_.resize(head.size());
+    for (size_t i = 0; i < head.size(); ++i)
+        head_ += cell("th", {{"scope", "col"}, {"class", are_text_[i] ? "text" : ""}}, head[i]);
 }
 
 void Table::add(const std::vector<std::string>& cells, const std::vector<std::string>& orders) {
     std::string row;
     for (size_t i = 0; i < cells.size(); ++i) {
         const std::string order = i < orders.size() ? orders[i] : "";
-        if (i == 0)
-            row += element("th", {{"scope", "row"}}, cells[i]);
-        else
-            row += order.empty() ? element("td", cells[i]) : element("td", {{"data-order", order}}, cells[i]);
+        row += cell(i == 0 ? "th" : "td",
+                    {{"scope", i == 0 ? "row" : ""}, {"class", are_text_[i] ? "text" : ""}, {"data-order", order}}, cells[i]);
     }
     body_ += element("tr", row) + "\n";
 }

@@ -2,7 +2,6 @@
 // HTML and SVG as text.
 #pragma once
 
-#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,17 +17,18 @@ struct Attribute {
 std::string escaped(std::string_view text);
 
 /// content: HTML. Attribute values are escaped.
-std::string element(std::string_view tag, std::initializer_list<Attribute> attributes, std::string_view content);
+std::string element(std::string_view tag, const std::vector<Attribute>& attributes, std::string_view content);
 inline std::string element(std::string_view tag, std::string_view content) { return element(tag, {}, content); }
 
 /// One that has no content and no end: img.
-std::string empty_element(std::string_view tag, std::initializer_list<Attribute> attributes);
+std::string empty_element(std::string_view tag, const std::vector<Attribute>& attributes);
 
 /// The first cell of a row is its heading.
 class Table {
 public:
-    /// head: HTML of each column's heading.
-    explicit Table(const std::vector<std::string>& head);
+    /// head: HTML of each column's heading. are_text: which columns are read as text, of class "text"; those after them are
+    /// not.
+    explicit Table(const std::vector<std::string>& head, std::vector<bool> are_text = {});
 
     /// cells: HTML, as many as headings. orders: as many, or none: what a column is sorted by where that is not its text.
     void add(const std::vector<std::string>& cells, const std::vector<std::string>& orders = {});
@@ -37,6 +37,7 @@ public:
     std::string html(const std::string& class_name = {}) const;
 
 private:
+    std::vector<bool> are_text_;
     std::string head_, body_;
 };
 

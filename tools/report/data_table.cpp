@@ -119,7 +119,9 @@ std::string DataTable::html() const {
     for (const Column& column : columns)
         head.push_back(html::escaped(column.name) +
                        (column.unit.empty() ? "" : html::element("small", html::escaped(column.unit))));
-    html::Table table(head);
+    std::vector<bool> are_text;
+    for (const Column& column : columns) are_text.push_back(column.is_text);
+    html::Table table(head, are_text);
     for (const auto& row : rows) {
         std::vector<std::string> cells, orders;
         for (const Cell& cell : row) {

@@ -106,7 +106,7 @@ std::string length_caption(const Same<std::vector<Lengths>>& group, bool logarit
         if (bin.to == 0) empty += static_cast<double>(bin.lists);
         if (bin.lists > 0) longest = &bin;
     }
-    return fmt::format("Of {} lists {:.0f} % are empty, and the longest have {} ranges; {}.{}", shown(lists),
+    return fmt::format("Of {} lists {:.0f} % are empty, and the longest have {} ranges; {}.{}", shown(lists),
                        lists > 0.0 ? 100.0 * empty / lists : 0.0, longest != nullptr ? bin_text(*longest) : "no",
                        whose(group.layouts), logarithmic ? " The scale of lists is logarithmic." : "");
 }

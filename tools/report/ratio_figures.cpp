@@ -48,8 +48,8 @@ std::string caption_of(const BenchFile& file, const std::vector<const Comparison
     const auto count = [&](Verdict verdict) { return verdicts[static_cast<size_t>(verdict)]; };
     return fmt::format(
                "Against {}, the {} of {} layouts is faster, of {} slower, of {} the same and of {} undecided; to the left is "
-               "faster. Lines: 95 % "
-               "intervals of the median of paired ratios; grey: within 2 %, which counts as the same.",
+               "faster. Lines: 95 % "
+               "intervals of the median of paired ratios; grey: within 2 %, which counts as the same.",
                file.baseline, stage, count(Verdict::faster), count(Verdict::slower), count(Verdict::same),
                count(Verdict::undecided)) +
            again + (null != nullptr ? fmt::format(" The null layout, the floor, is at {:.3f}.", null->ratio) : "");

@@ -36,7 +36,7 @@ std::string caption_of(const html::BarPlot& plot) {
         const auto last = std::find_if_not(plot.bars.rbegin(), plot.bars.rend(), is_floor);
         const double whole = sum_of(*last);
         caption =
-            fmt::format("Building and one query of {} take least, {}; of {} most, {}, {:.0f} % of it the query.", first->name,
+            fmt::format("Building and one query of {} take least, {}; of {} most, {}, {:.0f} % of it the query.", first->name,
                         first->value, last->name, last->value, whole > 0.0 ? 100.0 * last->parts.back() / whole : 0.0);
     }
     caption += " Parts are medians, so their sum need not be the median of the whole.";

@@ -48,6 +48,7 @@ bool goes_by_factors(const std::vector<double>& numbers) {
 bool is_wide(const std::vector<html::PlotSeries>& series) {
     double least = std::numeric_limits<double>::infinity(), most = 0.0;
     for (const html::PlotSeries& s : series) {
+        if (s.kind != Kind::curve) continue;
         for (const html::PlotPoint& p : s.points) {
             least = std::min(least, p.y);
             most = std::max(most, p.y);
@@ -57,7 +58,7 @@ bool is_wide(const std::vector<html::PlotSeries>& series) {
     return least > 0.0 && most / least >= kLogarithmicFrom;
 }
 
-/// Says which floors are left out.
+/// Of floors that are near some may be 0, which has no logarithm either. Says which are left out.
 std::string drop_far_floors(std::vector<html::PlotSeries>& series) {
     const auto least = [](const html::PlotSeries& s) {
         return std::min_element(s.points.begin(), s.points.end(), [](const auto& a, const auto& b) { return a.y < b.y; })->y;
@@ -124,8 +125,8 @@ std::vector<Figure> sweep_figures(const Sources& sources, const std::string& sta
             if (stage == "build") plot.series.push_back(copy_series(sweep, plot.x_ticks));
             std::erase_if(plot.series, [](const html::PlotSeries& s) { return s.points.empty(); });
             if (plot.series.empty()) continue;
-            const std::string undrawn = drop_far_floors(plot.series);
             plot.logarithmic_y = is_wide(plot.series);
+            const std::string undrawn = plot.logarithmic_y ? drop_far_floors(plot.series) : "";
             figures.push_back({sources.name(file, stage, axis.name + " " + sweep.title()), html::line_plot(plot),
                                caption_of(sweep, plot, stage) + undrawn, sweep.is_first});
         }

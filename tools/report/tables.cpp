@@ -143,7 +143,7 @@ DataTable verdict_table(const std::vector<BenchFile>& files, const std::string& 
     const RowHead head(files);
     DataTable table{"verdicts-" + stage,
                     "Verdicts: " + stage,
-                    "The median of the paired ratios to the baseline at the same scene and axes, with its 95 % interval.",
+                    "The median of the paired ratios to the baseline at the same scene and axes, with its 95 % interval.",
                     head.columns(),
                     {}};
     append(table.columns, Columns{{"ratio"}, {"low"}, {"high"}, {"pairs"}, {"verdict", "", true}});

@@ -25,7 +25,11 @@ TEST(Numbers, HaveThreeDigitsThatCount) {
 }
 
 DataTable small_table() {
-    return {"t", "Title", "Caption.", {{"layout", "", true}, {"query", "ms"}}, {{"a, \"b\"_|<", shown_cell(1234.5)}, {"c", Cell()}}};
+    return {"t",
+            "Title",
+            "Caption.",
+            {{"layout", "", true}, {"query", "ms"}},
+            {{"a, \"b\"_|<", shown_cell(1234.5)}, {"c", Cell()}}};
 }
 
 TEST(DataTables, AreEscapedAsEachFormWants) {
@@ -33,7 +37,8 @@ TEST(DataTables, AreEscapedAsEachFormWants) {
     EXPECT_EQ(table.csv(), "layout,\"query, ms\"\r\n\"a, \"\"b\"\"_|<\",1234.5\r\nc,\r\n");
     EXPECT_THAT(table.html(), HasSubstr("<th scope=\"row\">a, &quot;b&quot;_|&lt;</th><td data-order=\"1234.5\">1,234</td>"));
     EXPECT_THAT(table.html(), HasSubstr("<td>–</td>"));
-    EXPECT_THAT(table.markdown(), HasSubstr("| layout | query, ms |\n| --- | ---: |\n| a, &quot;b&quot;\\_\\|&lt; | 1,234 |\n"));
+    EXPECT_THAT(table.markdown(),
+                HasSubstr("| layout | query, ms |\n| --- | ---: |\n| a, &quot;b&quot;\\_\\|&lt; | 1,234 |\n"));
     EXPECT_THAT(table.latex(), HasSubstr("\\begin{tabular}{lr}\n\\toprule\nlayout & query, ms \\\\\n\\midrule\n"
                                          "a, \"b\"\\_|\\textless{} & 1,234 \\\\\n"));
 }

@@ -21,7 +21,8 @@ Case measured(const std::string& scene, const std::string& layout, std::vector<s
     return c;
 }
 
-// Time falls as bytes grow but for 2, which 1 beats in both, 4, which is as fast as 3 and larger, and 5, as small as 0 and slower.
+// Time falls as bytes grow but for 2, which 1 beats in both, 4, which is as fast as 3 and larger, and 5, as small as 0 and
+// slower.
 TEST(ParetoFront, IsWhatNothingBeats) {
     EXPECT_THAT(pareto_front({{1, 9}, {2, 5}, {3, 6}, {4, 2}, {5, 2}, {1, 10}}), ElementsAre(0, 1, 3));
     EXPECT_THAT(pareto_front({{7, 1}, {3, 4}}), ElementsAre(1, 0));
@@ -62,8 +63,9 @@ TEST(Settings, DifferInSceneAndAxes) {
 TEST(Sweeps, GoAlongOneAxisEach) {
     BenchFile file;
     file.axes = {{"res", {"1", "2", "3"}}, {"method", {"m", "n"}}, {"cells", {"4"}}};
-    file.cases = {measured("a", "x", {"1", "m", "4"}), measured("a", "x", {"3", "m", "4"}), measured("a", "y", {"2", "m", "4"}),
-                  measured("a", "x", {"1", "n", "4"}), measured("a", "x", {"1", "m", "4"}), measured("b", "x", {"1", "m", "4"})};
+    file.cases = {measured("a", "x", {"1", "m", "4"}), measured("a", "x", {"3", "m", "4"}),
+                  measured("a", "y", {"2", "m", "4"}), measured("a", "x", {"1", "n", "4"}),
+                  measured("a", "x", {"1", "m", "4"}), measured("b", "x", {"1", "m", "4"})};
     file.cases[4].again = true;
     const std::vector<Sweep> sweeps = sweeps_of(file);
     // Along res with m; with n and in b there is one value only. Along method at res 1 only.
