@@ -13,15 +13,30 @@
 namespace gnomon::report {
 namespace {
 
-constexpr const char* kStages[] = {"clear", "count", "scan", "prepare", "fill", "finish", "query"};
-constexpr size_t kColours[] = {7, 4, 3, 5, 2, 1, 0};
+struct Stage {
+    const char* name;
+    size_t colour;
+};
+constexpr Stage kStages[] = {{"clear", 7}, {"count", 4}, {"scan", 3}, {"prepare", 5}, {"fill", 2}, {"finish", 1}, {"query", 0}};
+
+/// Those that took time in some case.
+std::vector<Stage> stages_of(const BenchFile& file) {
+    std::vector<Stage> stages(std::begin(kStages), std::end(kStages));
+    std::erase_if(stages, [&](const Stage& stage) {
+        return std::none_of(file.cases.begin(), file.cases.end(), [&](const Case& c) {
+            const Times* times = c.stage(stage.name);
+            return times != nullptr && times->median > 0.0;
+        });
+    });
+    return stages;
+}
 
 double sum_of(const html::Bar& bar) { return std::accumulate(bar.parts.begin(), bar.parts.end(), 0.0); }
 
-html::Bar bar_of(const Case& c) {
+html::Bar bar_of(const Case& c, const std::vector<Stage>& stages) {
     html::Bar bar{.name = c.again ? c.layout + ", again" : c.layout, .parts = {}, .value = {}, .floor = c.copy_ms};
-    for (const char* stage : kStages) {
-        const Times* times = c.stage(stage);
+    for (const Stage& stage : stages) {
+        const Times* times = c.stage(stage.name);
         bar.parts.push_back(times != nullptr ? times->median : 0.0);
     }
     bar.value = shown(sum_of(bar)) + " ms";
@@ -50,16 +65,19 @@ std::string caption_of(const html::BarPlot& plot) {
 std::vector<Figure> stage_figures(const Sources& sources) {
     std::vector<Figure> figures;
     for (const BenchFile& file : sources.files()) {
+        const std::vector<Stage> stages = stages_of(file);
         for (const Setting& setting : settings_of(file)) {
             html::BarPlot plot{.title = sources.title(file, setting.title()),
                                .x_title = "ms, medians",
                                .by_part = true,
-                               .part_names = {std::begin(kStages), std::end(kStages)},
-                               .part_colours = {std::begin(kColours), std::end(kColours)},
                                .line_name = "null layout",
                                .width = 480.0};
+            for (const Stage& stage : stages) {
+                plot.part_names.emplace_back(stage.name);
+                plot.part_colours.push_back(stage.colour);
+            }
             for (const Case* c : setting.cases) {
-                plot.bars.push_back(bar_of(*c));
+                plot.bars.push_back(bar_of(*c, stages));
                 if (c->copy_ms) plot.floor_name = "copy of as many bytes";
                 if (c->layout == kNullLayout) plot.line = sum_of(plot.bars.back());
             }
