@@ -30,7 +30,7 @@ std::vector<double> ticks(double most) {
 }
 
 std::vector<double> logarithmic_ticks(double least, double most) {
-    constexpr size_t kFewest = 3, kMost = 7;
+    constexpr size_t kFewest = 3, kMost = 9;
     const auto multiples = [&](std::initializer_list<double> factors) {
         std::vector<double> result;
         for (double power = std::floor(std::log10(least)); power <= std::ceil(std::log10(most)); power += 1.0)

@@ -153,6 +153,7 @@ Case case_of(const Part& part, const std::vector<Axis>& axes) {
         if (!number.is_null()) c.counts.emplace_back(count_name, number.number());
     if (part.has("lengths")) c.lengths = lengths_of(part["lengths"]);
     if (part.has("texels")) c.texels = texels_of(part["texels"]);
+    if (part.has("same_picture")) c.same_picture = part["same_picture"].truth();
     if (part.has("floor")) c.copy_ms = part["floor"]["copy_ms"].amount_or_null();
     return c;
 }
@@ -199,7 +200,8 @@ void read_context(const Part& context, BenchFile& file) {
     const std::pair<const char*, const char*> shown[] = {
         {"device", "device"}, {"driver", "driver"},  {"driver version", "driver_version"},
         {"date", "date"},     {"commit", "commit"},  {"gnomon", "gnomon_version"},
-        {"seed", "seed"},     {"host", "host_name"}, {"CPUs", "num_cpus"}};
+        {"seed", "seed"},     {"host", "host_name"}, {"CPU", "cpu"},
+        {"CPUs", "num_cpus"}};
     for (const auto& [name, member] : shown)
         if (const std::string value = text(member); !value.empty()) file.context.emplace_back(name, value);
     if (context.has("command"))

@@ -51,6 +51,7 @@ struct Case {
     std::vector<std::pair<std::string, double>> counts;  ///< What was counted, in the file's order.
     std::vector<Lengths> lengths;                        ///< Empty: not counted.
     std::optional<Texels> texels;                        ///< None: not counted.
+    std::optional<bool> same_picture;                    ///< As the baseline's, bit for bit. None: not compared.
     std::optional<double> copy_ms;                       ///< To copy as many bytes as the map has.
 
     std::optional<double> count(const std::string& of) const;

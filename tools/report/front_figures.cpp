@@ -163,7 +163,7 @@ Figure front_figure(const Sources& sources, const Setting& setting, const std::v
             ? listed(on_front) + " is on the Pareto front: no other layout is as small or as fast."
             : listed(on_front) +
                   " are on the Pareto front, the grey steps: each other layout is beaten by one of them in both.";
-    if (!not_all.empty()) caption += " Not counted, since ranges were lost: " + listed(not_all) + ".";
+    if (!not_all.empty()) caption += " Not counted, since ranges were lost or the picture is another: " + listed(not_all) + ".";
     if (null_ms && !null_line) caption += fmt::format(" The null layout's query, {} ms, is below the plot.", shown(*null_ms));
     if (rate && !copy_line)
         caption += fmt::format(" Copying the largest map takes {} ms, below the plot.", shown(*rate * kMebibyte * most_bytes));

@@ -128,6 +128,8 @@ std::vector<std::string> layouts_of(const std::vector<BenchFile>& files) {
     return layouts;
 }
 
-bool answers_less(const Case& c) { return c.layout == kNullLayout || c.count("lost").value_or(0.0) > 0.0; }
+bool answers_less(const Case& c) {
+    return c.layout == kNullLayout || c.count("lost").value_or(0.0) > 0.0 || !c.same_picture.value_or(true);
+}
 
 }  // namespace gnomon::report

@@ -66,7 +66,7 @@ std::vector<std::string> layouts_of(const std::vector<BenchFile>& files);
 /// The layout that keeps no ranges: what no layout can be faster than.
 inline constexpr const char* kNullLayout = "null";
 
-/// Its answers are not those of the others: it keeps no ranges (null), or it has lost some.
+/// Its answers are not those of the others: it keeps no ranges (null), has lost some, or its picture is another.
 bool answers_less(const Case& c);
 
 }  // namespace gnomon::report

@@ -228,7 +228,7 @@ DataTable front_table(const std::vector<BenchFile>& files) {
                 append(row, Row{shown_cell(bytes), ranges > 0.0 ? shown_cell(bytes / ranges) : Cell(),
                                 shown_cell(median_of(*c, "query")), shown_cell(median_of(*c, "build")), shown_cell(c->copy_ms),
                                 Cell(front.contains(c)  ? "yes"
-                                     : answers_less(*c) ? "no: has not all ranges"
+                                     : answers_less(*c) ? "no: answers less"
                                                         : "no")});
                 table.rows.push_back(std::move(row));
             }

@@ -6,8 +6,8 @@
 
 #include <gnomon/error.hpp>
 
-#include "io/png.hpp"
 #include "html/image.hpp"
+#include "io/png.hpp"
 
 namespace gnomon::html {
 namespace {
@@ -23,6 +23,10 @@ TEST(Html, TablesHaveHeadings) {
     table.add({"tsm", "1"});
     EXPECT_THAT(table.html(), testing::HasSubstr("<th scope=\"col\">ms</th>"));
     EXPECT_THAT(table.html(), testing::HasSubstr("<tr><th scope=\"row\">tsm</th><td>1</td></tr>"));
+    Table words({"run", "why"}, {false, true});
+    words.add({"tsm", "so"}, {"", "2"});
+    EXPECT_THAT(words.html(), testing::HasSubstr("<th scope=\"col\" class=\"text\">why</th>"));
+    EXPECT_THAT(words.html(), testing::HasSubstr("<td class=\"text\" data-order=\"2\">so</td>"));
 }
 
 TEST(Html, TemplatesAreFilled) {

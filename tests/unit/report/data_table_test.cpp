@@ -35,7 +35,8 @@ DataTable small_table() {
 TEST(DataTables, AreEscapedAsEachFormWants) {
     const DataTable table = small_table();
     EXPECT_EQ(table.csv(), "layout,\"query, ms\"\r\n\"a, \"\"b\"\"_|<\",1234.5\r\nc,\r\n");
-    EXPECT_THAT(table.html(), HasSubstr("<th scope=\"row\">a, &quot;b&quot;_|&lt;</th><td data-order=\"1234.5\">1,234</td>"));
+    EXPECT_THAT(table.html(),
+                HasSubstr("<th scope=\"row\" class=\"text\">a, &quot;b&quot;_|&lt;</th><td data-order=\"1234.5\">1,234</td>"));
     EXPECT_THAT(table.html(), HasSubstr("<td>–</td>"));
     EXPECT_THAT(table.markdown(),
                 HasSubstr("| layout | query, ms |\n| --- | ---: |\n| a, &quot;b&quot;\\_\\|&lt; | 1,234 |\n"));

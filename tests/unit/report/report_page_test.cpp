@@ -24,9 +24,10 @@ constexpr const char* kReader = R"js(
   seen.captions = [...document.querySelectorAll('figure.plot .caption')].filter(c => c.textContent.trim().endsWith('.')).length;
   seen.loaded = performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).map(r => r.name);
   seen.scripts = document.scripts.length;
-  seen.cutOff = []; seen.overlaps = []; seen.small = [];
+  seen.cutOff = []; seen.overlaps = []; seen.small = []; seen.wide = [];
   for (const svg of document.querySelectorAll('figure.plot svg')) {
-    const box = svg.getBoundingClientRect();
+    const box = svg.getBoundingClientRect(), figure = svg.closest('figure').getBoundingClientRect();
+    if (box.right > figure.right + 1) seen.wide.push(svg.getAttribute('aria-label'));
     const texts = [...svg.querySelectorAll('text')], boxes = texts.map(t => t.getBoundingClientRect());
     texts.forEach((t, i) => {
       const b = boxes[i];
@@ -67,6 +68,7 @@ TEST_F(ReportPageTest, CanBeReadAtThreeWidths) {
         EXPECT_EQ(seen["captions"], seen["figures"]);
         EXPECT_EQ(seen["loaded"], json::array());
         EXPECT_EQ(seen["scripts"], 2);  // The page's and the reader's: none of the scene's name.
+        EXPECT_EQ(seen["wide"], json::array());
         EXPECT_EQ(seen["cutOff"], json::array());
         EXPECT_EQ(seen["overlaps"], json::array());
         EXPECT_EQ(seen["small"], json::array());

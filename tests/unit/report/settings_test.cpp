@@ -35,15 +35,18 @@ TEST(ParetoFront, HasAllThatAreEqual) { EXPECT_THAT(pareto_front({{2, 2}, {1, 3}
 TEST(ParetoFront, IsOfLayoutsThatAnswerAll) {
     Setting setting;
     Case slow = measured("s", "slow", {}, 3.0), null = measured("s", "null", {}, 0.1), lost = measured("s", "fixed", {}, 1.0),
-         again = measured("s", "slow", {}, 2.0), unknown = measured("s", "unknown", {}, 1.0);
+         again = measured("s", "slow", {}, 2.0), unknown = measured("s", "unknown", {}, 1.0),
+         wrong = measured("s", "wrong", {}, 1.0);
     again.again = true;
     slow.counts = {{"map_bytes", 10.0}, {"lost", 0.0}};
     null.counts = {{"map_bytes", 0.0}};
     lost.counts = {{"map_bytes", 5.0}, {"lost", 1.0}};
-    again.counts = slow.counts;
-    setting.cases = {&slow, &null, &lost, &again, &unknown};
+    again.counts = wrong.counts = slow.counts;
+    slow.same_picture = true;
+    wrong.same_picture = false;
+    setting.cases = {&slow, &null, &lost, &again, &unknown, &wrong};
     const std::vector<const Case*> cases = cases_with_bytes(setting);
-    EXPECT_THAT(cases, ElementsAre(&slow, &null, &lost));
+    EXPECT_THAT(cases, ElementsAre(&slow, &null, &lost, &wrong));
     EXPECT_THAT(front_of(cases), ElementsAre(&slow));
 }
 
