@@ -111,7 +111,12 @@ DataTable summary_table(const std::vector<BenchFile>& files) {
     for (const std::string& stage : stages) {
         table.columns.push_back({stage, "mean ratio"});
         if (stage == "query")
-            append(table.columns, Columns{{"least"}, {"most"}, {"faster"}, {"slower"}, {"same"}, {"undecided"}});
+            append(table.columns, Columns{{"least", stage},
+                                          {"most", stage},
+                                          {"faster", stage},
+                                          {"slower", stage},
+                                          {"same", stage},
+                                          {"undecided", stage}});
     }
     for (const BenchFile& file : files) {
         std::vector<std::string> order;
