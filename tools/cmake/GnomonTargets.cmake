@@ -39,3 +39,15 @@ function(gnomon_part name)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(gnomon_${name} PUBLIC glm::glm)
 endfunction()
+
+# gnomon_embed_files(FOLDER HEADER TABLE name...): the files of the folder as text by name, in an array of a header that is made.
+function(gnomon_embed_files folder header table)
+  set(script ${PROJECT_SOURCE_DIR}/tools/cmake/EmbedSources.cmake)
+  list(TRANSFORM ARGN PREPEND ${folder}/ OUTPUT_VARIABLE files)
+  add_custom_command(
+    OUTPUT ${header}
+    COMMAND ${CMAKE_COMMAND} -DFOLDER=${folder} -DOUTPUT=${header} -DTABLE=${table} "-DNAMES=${ARGN}" -P ${script}
+    DEPENDS ${files} ${script}
+    COMMENT "Files of ${folder}"
+    VERBATIM)
+endfunction()

@@ -37,6 +37,7 @@ void add_compare(CLI::App& app, Invocation& invocation);
 void add_probe(CLI::App& app, Invocation& invocation);
 void add_sbuffer(CLI::App& app, Invocation& invocation);
 void add_ranges(CLI::App& app, Invocation& invocation);
+void add_report(CLI::App& app, Invocation& invocation);
 void add_reproduce(CLI::App& app, Invocation& invocation);  ///< Only where the reference is built (GNOMON_HAS_REFERENCE).
 
 /// Messages go to stderr as `gnomon: LEVEL: TEXT`, TEXT as printable() makes it, in colour on a terminal unless NO_COLOR is

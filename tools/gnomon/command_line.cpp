@@ -23,6 +23,7 @@ CommandLine::CommandLine()
     add_probe(app_, invocation_);
     add_sbuffer(app_, invocation_);
     add_ranges(app_, invocation_);
+    add_report(app_, invocation_);
 #ifdef GNOMON_HAS_REFERENCE
     add_reproduce(app_, invocation_);
 #endif

@@ -2,11 +2,13 @@
 // The page over all figures.
 #include <algorithm>
 
-#include "reproduce/html.hpp"
+#include "html/html.hpp"
 #include "reproduce/page.hpp"
 #include "reproduce/report.hpp"
 
 namespace gnomon::reproduce {
+
+using namespace html;
 
 std::string index_html(const std::vector<IndexEntry>& entries, const MeasureOptions& options, const std::string& device) {
     std::string content = element("h1", "Figures of the papers, rendered again") + measured_on(options, device);
@@ -26,7 +28,7 @@ std::string index_html(const std::vector<IndexEntry>& entries, const MeasureOpti
                    element("p", {{"class", "note"}}, escaped(entry.shows));
         if (!entry.claims.empty()) content += claims_table(entry.claims);
     }
-    return page("Figures of the papers, rendered again", content);
+    return figure_page("Figures of the papers, rendered again", content);
 }
 
 }  // namespace gnomon::reproduce

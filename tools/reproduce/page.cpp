@@ -5,21 +5,17 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
-#include <cassert>
 #include <gnomon/version.hpp>
 
+#include "html/embedded.hpp"
+#include "html/html.hpp"
+#include "html/page.hpp"
 #include "page_files.h"
-#include "reproduce/html.hpp"
 
 namespace gnomon::reproduce {
 namespace {
 
-std::string file(std::string_view name) {
-    const auto found =
-        std::find_if(std::begin(kPageFiles), std::end(kPageFiles), [&](const EmbeddedFile& f) { return f.name == name; });
-    assert(found != std::end(kPageFiles));
-    return std::string(found->text);
-}
+using namespace html;
 
 std::string class_of(Verdict verdict) {
     std::string name = to_text(verdict);
@@ -49,18 +45,8 @@ std::string check_list(const std::vector<Check>& checks) {
 
 }  // namespace
 
-std::string page(const std::string& title, const std::string& content) {
-    return filled(file("page.html"), {{"generator", "gnomon " GNOMON_VERSION},
-                                      {"title", escaped(title)},
-                                      {"style", file("style.css")},
-                                      {"content", content},
-                                      {"script", file("viewer.js")}});
-}
-
-std::string facts(const std::vector<std::pair<std::string, std::string>>& list) {
-    std::string items;
-    for (const auto& [name, value] : list) items += element("li", escaped(name) + " " + element("b", escaped(value)));
-    return element("ul", {{"class", "facts"}}, items) + "\n";
+std::string figure_page(const std::string& title, const std::string& content) {
+    return page(title, content, embedded(kPageFiles, "viewer.css"), embedded(kPageFiles, "viewer.js"));
 }
 
 std::string measured_on(const MeasureOptions& options, const std::string& device) {

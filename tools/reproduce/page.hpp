@@ -8,11 +8,8 @@
 
 namespace gnomon::reproduce {
 
-/// A whole page with its style and script. content: HTML.
-std::string page(const std::string& title, const std::string& content);
-
-/// A list of facts in one line: name and value.
-std::string facts(const std::vector<std::pair<std::string, std::string>>& list);
+/// A whole page with viewers of pictures. content: HTML.
+std::string figure_page(const std::string& title, const std::string& content);
 
 /// "Intel ..., full size" and so on.
 std::string measured_on(const MeasureOptions& options, const std::string& device);

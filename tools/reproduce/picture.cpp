@@ -10,22 +10,11 @@
 #include <cmath>
 #include <glm/glm.hpp>
 
+#include "html/image.hpp"
 #include "io/png.hpp"
 
 namespace gnomon::reproduce {
 namespace {
-
-std::string base64(std::span<const std::byte> data) {
-    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((data.size() + 2) / 3 * 4);
-    for (size_t i = 0; i < data.size(); i += 3) {
-        uint32_t word = 0;
-        for (size_t k = 0; k < 3; ++k) word = word << 8 | (i + k < data.size() ? std::to_integer<uint32_t>(data[i + k]) : 0u);
-        for (size_t k = 0; k < 4; ++k) text += i + k > data.size() ? '=' : kDigits[word >> (18 - 6 * k) & 63u];
-    }
-    return text;
-}
 
 // sRGB. Even steps of lightness: what is brighter on the screen is more.
 constexpr std::array<glm::dvec3, 6> kScale = {
@@ -52,16 +41,14 @@ std::string coloured(uint32_t width, uint32_t height, std::span<const double> va
         const glm::dvec3 c = colour(value);
         for (int i = 0; i < 3; ++i) rgb.push_back(static_cast<uint8_t>(std::lround(c[i])));
     }
-    return png_address(width, height, rgb);
+    return html::png_address(width, height, rgb);
 }
 
 }  // namespace
 
-std::string png_address(uint32_t width, uint32_t height, std::span<const uint8_t> rgb) {
-    return "data:image/png;base64," + base64(io::encode_png(width, height, rgb));
+std::string picture_of(const Frame& frame) {
+    return html::png_address(frame.width, frame.height, io::tone_map(frame.channels, 0.0));
 }
-
-std::string picture_of(const Frame& frame) { return png_address(frame.width, frame.height, io::tone_map(frame.channels, 0.0)); }
 
 std::string difference_picture(const Frame& a, const Frame& b) {
     std::vector<Channel> difference;
@@ -73,7 +60,7 @@ std::string difference_picture(const Frame& a, const Frame& b) {
         Channel& shown = difference.emplace_back(channel);
         for (size_t i = 0; i < shown.values.size(); ++i) shown.values[i] = std::abs(shown.values[i] - other->values[i]);
     }
-    return png_address(a.width, a.height, io::tone_map(difference, 0.0));
+    return html::png_address(a.width, a.height, io::tone_map(difference, 0.0));
 }
 
 std::string signed_picture(uint32_t width, uint32_t height, std::span<const double> values) {

@@ -10,9 +10,6 @@
 
 namespace gnomon::reproduce {
 
-/// A data: address of a PNG; rgb as io::write_png's.
-std::string png_address(uint32_t width, uint32_t height, std::span<const uint8_t> rgb);
-
 /// The picture in sRGB.
 std::string picture_of(const Frame& frame);
 

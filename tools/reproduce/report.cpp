@@ -6,13 +6,17 @@
 
 #include <algorithm>
 
-#include "reproduce/html.hpp"
+#include "html/bar_plot.hpp"
+#include "html/html.hpp"
+#include "html/line_plot.hpp"
+#include "html/page.hpp"
 #include "reproduce/page.hpp"
-#include "reproduce/plot.hpp"
 #include "reproduce/viewer.hpp"
 
 namespace gnomon::reproduce {
 namespace {
+
+using namespace html;
 
 struct Part {
     const char* name;
@@ -29,8 +33,6 @@ std::vector<Part> parts_of(const RunResult& run) {
     }
     return {map, camera, test, shade};
 }
-
-std::string heading(int level, const std::string& text) { return element(fmt::format("h{}", level), escaped(text)) + "\n"; }
 
 std::string place(const Experiment& experiment, size_t setting) {
     const Setting& s = experiment.settings[setting];
@@ -73,8 +75,10 @@ std::string metric_plots(const Experiment& experiment, const ExperimentResult& r
             }
         }
         const std::string title = fmt::format("{}: {}", scene, info(metric).title);
-        plots += experiment.axis.empty() ? bar_plot(title, plot_title(metric), bars, false)
-                                         : line_plot(title, experiment.axis, plot_title(metric), series);
+        plots += experiment.axis.empty()
+                     ? figure(bar_plot({.title = title, .x_title = plot_title(metric), .bars = bars}))
+                     : figure(line_plot(
+                           {.title = title, .x_title = experiment.axis, .y_title = plot_title(metric), .series = series}));
         first = end;
     }
     return plots;
@@ -101,9 +105,10 @@ std::string time_plots(const Experiment& experiment, const ExperimentResult& res
             std::sort(s.points.begin(), s.points.end(), [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
             names.push_back(s.name);
         }
-        plots += line_plot(place(experiment, i), "frame, ms", plot_title(metric), series);
+        plots += figure(line_plot(
+            {.title = place(experiment, i), .x_title = "frame, ms", .y_title = plot_title(metric), .series = series}));
     }
-    return legend(names) + element("div", {{"class", "plots"}}, plots);
+    return legend_list(names) + element("div", {{"class", "plots"}}, plots);
 }
 
 bool has_curves(const Experiment& experiment) {
@@ -128,9 +133,9 @@ std::string stage_plots(const Experiment& experiment, const ExperimentResult& re
             }
             bars.push_back(std::move(bar));
         }
-        plots += bar_plot(place(experiment, i), "ms", bars, true);
+        plots += figure(bar_plot({.title = place(experiment, i), .x_title = "ms", .bars = bars, .by_part = true}));
     }
-    return legend(names) + element("div", {{"class", "plots"}}, plots);
+    return legend_list(names) + element("div", {{"class", "plots"}}, plots);
 }
 
 std::string metric_table(const Experiment& experiment, const ExperimentResult& result) {
@@ -235,7 +240,7 @@ std::string to_html(const FigureReport& report) {
     if (!figure.plots.empty()) {
         std::string plots;
         for (const Metric metric : figure.plots) plots += metric_plots(experiment, result, metric);
-        content += heading(2, "Plots") + (experiment.axis.empty() ? "" : legend(labels_of(experiment))) +
+        content += heading(2, "Plots") + (experiment.axis.empty() ? "" : legend_list(labels_of(experiment))) +
                    element("div", {{"class", "plots"}}, plots);
     }
     if (experiment.with_reference && has_curves(experiment))
@@ -244,7 +249,7 @@ std::string to_html(const FigureReport& report) {
     content += heading(2, "Measured") + metric_table(experiment, result);
     content += heading(2, "Details") + details(experiment, result);
     content += heading(2, "How it is measured") + element("p", kHowMeasured);
-    return page("Figure " + figure.name + ": " + figure.title, content);
+    return figure_page("Figure " + figure.name + ": " + figure.title, content);
 }
 
 }  // namespace gnomon::reproduce

@@ -8,12 +8,14 @@
 #include <cmath>
 #include <numeric>
 
+#include "html/html.hpp"
 #include "reproduce/errors.hpp"
-#include "reproduce/html.hpp"
 #include "reproduce/picture.hpp"
 
 namespace gnomon::reproduce {
 namespace {
+
+using namespace html;
 
 struct Layer {
     std::string name;   // In the page: picture, difference, same, flip.

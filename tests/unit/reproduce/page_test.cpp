@@ -3,10 +3,8 @@
 // without one of them the test says that it is skipped.
 #include <gmock/gmock.h>
 
-#include <cstdlib>
-#include <nlohmann/json.hpp>
-
 #include "command_runner.hpp"
+#include "support/chromium.hpp"
 #include "test_folder.hpp"
 
 namespace gnomon::test {
@@ -14,10 +12,8 @@ namespace {
 
 using nlohmann::json;
 
-// Runs at the end of the page, uses it as a reader would, and leaves what it saw in the element #seen.
-constexpr const char* kReader = R"js(<pre id="seen"></pre><script>
-addEventListener('load', () => {
-  const seen = {};
+// Uses the page as a reader would.
+constexpr const char* kReader = R"js(
   const viewer = document.querySelector('.viewer'), large = viewer.querySelector('.large');
   const shown = () => large.querySelector('.shown').textContent;
   const key = k => document.body.dispatchEvent(new KeyboardEvent('keydown', { key: k, bubbles: true }));
@@ -40,30 +36,18 @@ addEventListener('load', () => {
   seen.zoom = zoom();
   key('0'); seen.fit = zoom();
   seen.loaded = performance.getEntriesByType('resource').filter(r => !r.name.startsWith('data:')).map(r => r.name);
-  document.querySelector('#seen').textContent = 'SEEN' + JSON.stringify(seen) + 'SEEN';
-});
-</script>)js";
+)js";
 
 class PageTest : public TestFolder {};
 
 TEST_F(PageTest, WorksInChromium) {
-    if (std::system("command -v chromium > /dev/null") != 0) GTEST_SKIP() << "skipped: Chromium is not installed";
+    if (!has_chromium()) GTEST_SKIP() << "skipped: Chromium is not installed";
     const CommandResult made =
         run_gnomon(folder, {"reproduce", "2015-13", "-o", "out", "--scale=0.04", "--repeat=3", "--reference-spp=4", "--quiet"});
     GN_SKIP_WITHOUT_DEVICE(made);
     ASSERT_EQ(made.exit_code, 0) << made.err;
-    std::string page = content_of(folder / "out" / "2015-13.html");
-    page.insert(page.rfind("</body>"), kReader);
-    put_content(folder / "page.html", page);
-    const std::string command = "timeout 120 chromium --headless=new --no-sandbox --disable-gpu --user-data-dir='" +
-                                (folder / "profile").string() + "' --dump-dom 'file://" + (folder / "page.html").string() +
-                                "' > '" + (folder / "dom").string() + "' 2> '" + (folder / "log").string() + "'";
-    ASSERT_EQ(std::system(command.c_str()), 0) << content_of(folder / "log");
-
-    const std::string dom = content_of(folder / "dom");
-    const size_t begin = dom.find("SEEN{"), end = dom.rfind("}SEEN");
-    ASSERT_NE(begin, std::string::npos) << content_of(folder / "log");
-    const json seen = json::parse(dom.substr(begin + 4, end + 1 - begin - 4));
+    const json seen = seen_in_chromium(folder, content_of(folder / "out" / "2015-13.html"), kReader);
+    ASSERT_FALSE(seen.empty());
     EXPECT_EQ(seen["broken"], 0);
     EXPECT_GT(seen["images"], 10);
     EXPECT_EQ(seen["loaded"], json::array());

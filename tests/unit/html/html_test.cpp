@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // HTML as text, and images in it.
-#include "reproduce/html.hpp"
+#include "html/html.hpp"
 
 #include <gmock/gmock.h>
 
 #include <gnomon/error.hpp>
 
+#include "html/image.hpp"
 #include "io/png.hpp"
-#include "reproduce/picture.hpp"
 
-namespace gnomon::reproduce {
+namespace gnomon::html {
 namespace {
 
 TEST(Html, TextAndAttributesAreEscaped) {
@@ -23,6 +23,10 @@ TEST(Html, TablesHaveHeadings) {
     table.add({"tsm", "1"});
     EXPECT_THAT(table.html(), testing::HasSubstr("<th scope=\"col\">ms</th>"));
     EXPECT_THAT(table.html(), testing::HasSubstr("<tr><th scope=\"row\">tsm</th><td>1</td></tr>"));
+    Table words({"run", "why"}, {false, true});
+    words.add({"tsm", "so"}, {"", "2"});
+    EXPECT_THAT(words.html(), testing::HasSubstr("<th scope=\"col\" class=\"text\">why</th>"));
+    EXPECT_THAT(words.html(), testing::HasSubstr("<td class=\"text\" data-order=\"2\">so</td>"));
 }
 
 TEST(Html, TemplatesAreFilled) {
@@ -49,4 +53,4 @@ TEST(Pictures, AreBase64) {
 }
 
 }  // namespace
-}  // namespace gnomon::reproduce
+}  // namespace gnomon::html

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // HTML and SVG as text.
-#include "reproduce/html.hpp"
+#include "html/html.hpp"
 
 #include <algorithm>
 #include <gnomon/error.hpp>
 
-namespace gnomon::reproduce {
+namespace gnomon::html {
 namespace {
 
-std::string start_tag(std::string_view tag, std::initializer_list<Attribute> attributes) {
+std::string start_tag(std::string_view tag, const std::vector<Attribute>& attributes) {
     std::string text = "<";
     text.append(tag);
     for (const Attribute& attribute : attributes)
         text.append(" ").append(attribute.name).append("=\"").append(escaped(attribute.value)).append("\"");
     return text.append(">");
+}
+
+// Attributes without a value are left out.
+std::string cell(std::string_view tag, std::vector<Attribute> attributes, std::string_view content) {
+    std::erase_if(attributes, [](const Attribute& attribute) { return attribute.value.empty(); });
+    return element(tag, attributes, content);
 }
 
 }  // namespace
@@ -41,28 +47,31 @@ std::string escaped(std::string_view text) {
     return result;
 }
 
-std::string element(std::string_view tag, std::initializer_list<Attribute> attributes, std::string_view content) {
+std::string element(std::string_view tag, const std::vector<Attribute>& attributes, std::string_view content) {
     return start_tag(tag, attributes).append(content).append("</").append(tag).append(">");
 }
 
-std::string empty_element(std::string_view tag, std::initializer_list<Attribute> attributes) {
-    return start_tag(tag, attributes);
+std::string empty_element(std::string_view tag, const std::vector<Attribute>& attributes) { return start_tag(tag, attributes); }
+
+Table::Table(const std::vector<std::string>& head, std::vector<bool> are_text) : are_text_(std::move(are_text)) {
+    are_text_.resize(head.size());
+    for (size_t i = 0; i < head.size(); ++i)
+        head_ += cell("th", {{"scope", "col"}, {"class", are_text_[i] ? "text" : ""}}, head[i]);
 }
 
-Table::Table(const std::vector<std::string>& head) {
-    for (const std::string& heading : head) head_ += element("th", {{"scope", "col"}}, heading);
-}
-
-void Table::add(const std::vector<std::string>& cells) {
+void Table::add(const std::vector<std::string>& cells, const std::vector<std::string>& orders) {
     std::string row;
-    for (size_t i = 0; i < cells.size(); ++i)
-        row += i == 0 ? element("th", {{"scope", "row"}}, cells[i]) : element("td", cells[i]);
+    for (size_t i = 0; i < cells.size(); ++i) {
+        const std::string order = i < orders.size() ? orders[i] : "";
+        row += cell(i == 0 ? "th" : "td",
+                    {{"scope", i == 0 ? "row" : ""}, {"class", are_text_[i] ? "text" : ""}, {"data-order", order}}, cells[i]);
+    }
     body_ += element("tr", row) + "\n";
 }
 
-std::string Table::html() const {
-    // Wide tables scroll on their own.
-    return element("div", {{"class", "table"}},
+std::string Table::html(const std::string& class_name) const {
+    // Wide tables scroll on their own, by keys too.
+    return element("div", {{"class", class_name.empty() ? "table" : "table " + class_name}, {"tabindex", "0"}},
                    element("table", element("thead", element("tr", head_)) + element("tbody", body_)));
 }
 
@@ -81,4 +90,4 @@ std::string filled(std::string_view text, const std::vector<std::pair<std::strin
     }
 }
 
-}  // namespace gnomon::reproduce
+}  // namespace gnomon::html
