@@ -70,6 +70,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     auto start = std::chrono::steady_clock::now();
     const Method& method = find_method(settings.method);
     check_parameters(method, settings.parameters);
+    check_cells(method, settings.light_cells, static_cast<uint32_t>(poses.size()) - 1);
     const std::string raster = choose_raster(method, settings.raster);
     Layout layout = with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
     layout.poisoned = settings.poison_layout;
@@ -81,7 +82,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
                 "--layout", "use a layout that is lossless, or --method exact");
         }
         std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
-        if (keeps_ranges(settings)) stages.push_back(read_lists_stage(method.exit_depth));
+        if (reads_lists(settings)) stages.push_back(read_lists_stage(method.exit_depth));
         add_layout_stages(device, programs, layout, stages);
     }
     device.reset_statistics();
@@ -93,6 +94,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     frame.sample_visibility.clear();
     frame.texel_ranges.clear();
     frame.light_ranges.clear();
+    frame.list_lengths.clear();
     frame.width = settings.width;
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
@@ -179,7 +181,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
         }
         read_film(device, sampler.resolve(), frame, rect_of(view, windows[w]));
     }
-    if (keeps_ranges(settings)) shadows.read_ranges(frame);
+    if (reads_lists(settings)) shadows.read_ranges(frame);
 
     const uint64_t hits = sampler.hit_count();
     const uint64_t tests = settings.count_ranges ? sampler.test_count() : 0;  // The last work before the statistics.
