@@ -28,7 +28,7 @@ using Copies = std::map<std::string, std::string>;
     throw Error(ErrorKind::input, what + (error ? ": " + error.message() : ""), where.string(), "name another folder");
 }
 
-void copy_file(const fs::path& from, const fs::path& to) {
+void copy_into(const fs::path& from, const fs::path& to) {
     std::error_code error;
     fs::create_directories(to.parent_path(), error);
     if (!error) fs::copy_file(from, to, error);
@@ -49,7 +49,7 @@ std::string from_uri(const std::string& uri) {
 
 /// The scene was loaded: what it names is inside its folder.
 void copy_scene(const fs::path& scene, const fs::path& to) {
-    copy_file(scene, to / scene.filename());
+    copy_into(scene, to / scene.filename());
     std::ifstream file(scene, std::ios::binary);
     const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
     if (json.is_discarded()) return;  // A .glb, most likely with all in it.
@@ -58,7 +58,7 @@ void copy_scene(const fs::path& scene, const fs::path& to) {
         for (const nlohmann::json& element : json[part]) {
             const std::string uri = element.value("uri", "data:");
             const fs::path name = from_uri(uri);
-            if (!uri.starts_with("data:") && !fs::exists(to / name)) copy_file(scene.parent_path() / name, to / name);
+            if (!uri.starts_with("data:") && !fs::exists(to / name)) copy_into(scene.parent_path() / name, to / name);
         }
     }
 }
@@ -79,7 +79,7 @@ Copies copy_layouts(const fs::path& folder, const std::vector<BenchLayout>& layo
         if (!fs::is_directory(layout.asked)) continue;
         const fs::path to = fs::path("layouts") / std::to_string(copies.size() + 1);
         for (const fs::directory_entry& entry : fs::recursive_directory_iterator(layout.asked)) {
-            if (entry.is_regular_file()) copy_file(entry.path(), folder / to / fs::relative(entry.path(), layout.asked));
+            if (entry.is_regular_file()) copy_into(entry.path(), folder / to / fs::relative(entry.path(), layout.asked));
         }
         copies[layout.asked] = to.string() + "/";
     }

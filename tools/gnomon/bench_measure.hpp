@@ -14,16 +14,20 @@ struct BenchLimits {
     double timeout = 0.0;  ///< Seconds of a case, with its warm-up; 0: none.
 };
 
-/// Told after each frame, and while it is made: how many of them are done, and which share of the next.
-using BenchProgress = std::function<void(double frames)>;
+/// Who watches.
+struct BenchWatch {
+    std::function<void(double frames)> progress;  ///< So many frames of the group are done; with the share of the next.
+    std::function<void(const std::string& text)> warn;
+};
 
 /// Frames of a group: a warm-up, the repetitions, and one that counts, of each case.
 uint32_t frames_of(const BenchGroup& group, const BenchLimits& limits);
 
 /// Render each case once, unmeasured; then all in turn (A B C A B C ...), repetitions times, each in one frame; then count.
 /// texels: of the first case count ranges per texel too. What does not fit into memory, what method and layout refuse, and what
-/// takes too long is left out from then on, and says why in BenchCase::skipped. All other errors are those of Renderer::render.
+/// takes too long is left out from then on, with a warning, and says why in BenchCase::skipped. All other errors are those of
+/// Renderer::render.
 void measure_group(Renderer& renderer, const BenchScene& scene, const LoadedScene& loaded, const BenchLimits& limits,
-                   BenchGroup& group, const BenchProgress& progress);
+                   BenchGroup& group, const BenchWatch& watch);
 
 }  // namespace gnomon::cli
