@@ -125,7 +125,11 @@ private:
     void measure(Renderer& renderer, const BenchScene& scene, const LoadedScene& loaded, BenchGroup& group, ProgressBar& bar) {
         const double all = all_samples();
         measure_group(renderer, scene, loaded, options_.limits, group,
-                      [&](double frames) { bar.update((done_ + frames * samples_of(group)) / all); });
+                      {[&](double frames) { bar.update((done_ + frames * samples_of(group)) / all); },
+                       [&](const std::string& text) {
+                           bar.erase();
+                           spdlog::warn("{}", text);
+                       }});
         done_ += static_cast<double>(frames_of(group, options_.limits)) * samples_of(group);
         bar.erase();
         if (options_.render.json != "-") {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_measure.hpp"
 
-#include <spdlog/spdlog.h>
+#include <spdlog/fmt/fmt.h>
 
 #include <cstring>
 #include <gnomon/error.hpp>
@@ -25,12 +25,12 @@ bool same_bits(const std::vector<Channel>& a, const std::vector<Channel>& b) {
 class Measurement {
 public:
     Measurement(Renderer& renderer, const BenchScene& scene, const LoadedScene& loaded, const BenchLimits& limits,
-                BenchGroup& group, const BenchProgress& progress)
+                BenchGroup& group, const BenchWatch& watch)
         : renderer_(renderer),
           loaded_(loaded),
           limits_(limits),
           group_(group),
-          progress_(progress),
+          watch_(watch),
           poses_(scene.poses(scene.scene, group.speed, group.time_steps)),
           frames_(group.cases.size()) {}
 
@@ -53,7 +53,7 @@ private:
         measured.skipped = reason;
         measured.skipped_as = kind;
         measured.samples.clear();
-        spdlog::warn("{} is left out: {}", measured.name, reason);
+        watch_.warn(measured.name + " is left out: " + reason);
     }
 
     // Nothing, where the case is left out from now on.
@@ -64,7 +64,7 @@ private:
         const auto spent = [&] { return measured.seconds + (timing::now() - start).wall; };
         try {
             renderer_.render(loaded_, poses_, settings_of(measured), frames_[i], [&](double share) {
-                progress_(done_ + share);
+                watch_.progress(done_ + share);
                 stopped = limits_.timeout > 0.0 && spent() > limits_.timeout;
                 return !stopped;
             });
@@ -85,10 +85,10 @@ private:
             if (picture_.empty()) picture_ = frames_[i].channels;
             measured.same_picture = same_bits(picture_, frames_[i].channels);
             if (!*measured.same_picture)
-                spdlog::warn(
-                    "{}: not the picture of the first lossless layout, though it is said to be lossless; see 'gnomon "
-                    "layouts check'",
-                    measured.name);
+                watch_.warn(
+                    measured.name +
+                    ": not the picture of the first lossless layout, though it is said to be lossless; see 'gnomon layouts "
+                    "check'");
         }
         ++done_;
     }
@@ -112,17 +112,17 @@ private:
                 count_case(renderer_, loaded_, poses_, settings_of(measured), frames_[i], i == 0, measured);
             } catch (const Error& error) {
                 if (error.kind() != ErrorKind::out_of_memory) throw;
-                spdlog::warn("{}: not everything is counted: {}", measured.name, error.what());
+                watch_.warn(measured.name + ": not everything is counted: " + error.what());
             }
         }
-        progress_(++done_);
+        watch_.progress(++done_);
     }
 
     Renderer& renderer_;
     const LoadedScene& loaded_;
     const BenchLimits& limits_;
     BenchGroup& group_;
-    const BenchProgress& progress_;
+    const BenchWatch& watch_;
     std::vector<Pose> poses_;
     std::vector<Frame> frames_;     ///< Of each case the last one, in whose memory the next is made.
     std::vector<Channel> picture_;  ///< Of the first lossless layout.
@@ -136,8 +136,8 @@ uint32_t frames_of(const BenchGroup& group, const BenchLimits& limits) {
 }
 
 void measure_group(Renderer& renderer, const BenchScene& scene, const LoadedScene& loaded, const BenchLimits& limits,
-                   BenchGroup& group, const BenchProgress& progress) {
-    Measurement(renderer, scene, loaded, limits, group, progress).run();
+                   BenchGroup& group, const BenchWatch& watch) {
+    Measurement(renderer, scene, loaded, limits, group, watch).run();
 }
 
 }  // namespace gnomon::cli
