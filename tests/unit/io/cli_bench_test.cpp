@@ -39,13 +39,13 @@ TEST_F(CliBenchTest, ALittleRun) {
     EXPECT_EQ(gnomon["axes"], json::parse(R"([{"name": "layout", "values": ["array", "array-soa", "null"]},
                                               {"name": "cells", "values": ["2", "4"]}])"));
     std::vector<std::string> names;
-    for (const json& measured : gnomon["cases"]) {
+    for (json measured : gnomon["cases"]) {  // A copy: what is not there is null.
         names.push_back(measured["name"]);
         if (measured["axes"]["cells"] != "2") continue;
         for (const char* metric : {"clear", "count", "scan", "prepare", "fill", "finish", "query", "build", "frame", "cpu"})
             EXPECT_EQ(measured["stages"][metric]["samples"].size(), 3u) << metric;
         const bool null = measured["layout"] == "null";
-        const json& counts = measured["counts"];
+        json& counts = measured["counts"];
         EXPECT_EQ(counts["lost"], null ? counts["ranges"] : json());
         EXPECT_GT(measured["stages"]["build"]["median"], 0.0);
         EXPECT_EQ(measured["floor"]["bytes"], counts["map_bytes"]);
