@@ -30,6 +30,9 @@ struct RenderSettings {
     /// Of an S-buffer are made: "all" its pages, or those that hits ask for ("asked"); "auto": asked where lists are long and
     /// the picture does not depend on the texels.
     std::string pages = "auto";
+    /// Cells of time of a light's S-buffer: a multiple of the poses' segments, at most kMostSegments; 0: what is fast. Only of
+    /// method exact, whose ranges may be cut where a cell ends.
+    uint32_t light_cells = 0;
     /// Of the method, by name (`gnomon methods`); those that are not given have their initial values.
     std::map<std::string, double> parameters = {};
     /// Of closed meshes list one side only, and nothing that shadows nothing, in views of suns that are fitted to what is left,
@@ -43,6 +46,7 @@ struct RenderSettings {
     bool keep_texel_ranges = false;  ///< Fill Frame::texel_ranges. Does what `pages` "all" and no `static_once` do, and leaves
                                      ///< suns' views as they are; so does the next.
     bool keep_ranges = false;        ///< Fill Frame::light_ranges.
+    bool keep_list_lengths = false;  ///< Fill Frame::list_lengths: of the S-buffer as it is without the two above.
     bool check_layout = false;       ///< What a layout does not initialise holds 0xcdcdcdcd, so that it shows, and its accesses
                                      ///< are checked: fill Frame::layout_faults.
     bool count_ranges = false;       ///< Count the ranges that the shadow tests look at and test; costs some percent.
@@ -128,7 +132,10 @@ struct Frame {
     /// By light: how many ranges each texel of its view has in the whole shutter (shadow_res squared, rows from the top; of a
     /// light with several faces one face below the other); empty for methods without ranges.
     std::vector<std::vector<uint32_t>> texel_ranges;
-    std::vector<LightRanges> light_ranges;         ///< By light; without texels for methods without ranges.
+    std::vector<LightRanges> light_ranges;  ///< By light; without texels for methods without ranges.
+    /// How many lists (of a texel in a cell of time) of all lights have so many ranges, by that number; empty for methods
+    /// without ranges, and where pages were made that hits asked for.
+    std::vector<uint64_t> list_lengths;
     std::vector<LayoutFault> layout_faults;        ///< By buffer of the manifest.
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;

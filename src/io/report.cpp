@@ -27,6 +27,7 @@ Json settings_json(const RenderSettings& settings) {
         {"static_once", settings.static_once},
         {"memory_budget", settings.memory_budget},
     };
+    if (settings.light_cells > 0) json["light_cells"] = settings.light_cells;
     for (const auto& [name, value] : settings.parameters) {
         std::string key = name;
         std::replace(key.begin(), key.end(), '-', '_');

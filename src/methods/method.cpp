@@ -25,7 +25,9 @@ std::string join(const std::vector<std::string>& words) {
 uint32_t segment_cells(const LightContext& light) { return light.geometry.segment_count; }
 
 // Ranges may be cut where a cell ends: whatever is fast.
-uint32_t finer_cells(const LightContext& light) { return light_cells(light.geometry.segment_count, light.still); }
+uint32_t finer_cells(const LightContext& light) {
+    return light_cells(light.geometry.segment_count, light.still, light.settings.light_cells);
+}
 
 // Its prisms are listed as the camera's are, since its view is sampled as the camera's image is.
 Method depth_map_method(const std::string& name, const std::string& summary, const std::string& source, DepthMapKind kind) {
@@ -57,6 +59,7 @@ const std::vector<Method>& methods() {
          .rasters = {"conservative"},
          .shadow_stage = "sample/shadow",
          .any_texels = true,
+         .any_cells = true,
          .one_sided = true,
          .light_cells = finer_cells,
          .make_map = make_s_buffer},
@@ -141,6 +144,17 @@ std::string choose_raster(const Method& method, const std::string& option) {
     if (std::find(method.rasters.begin(), method.rasters.end(), option) != method.rasters.end()) return option;
     throw Error(ErrorKind::usage, "method " + method.name + " cannot use the ranges of raster '" + option + "'", "--raster",
                 "use auto or " + join(method.rasters));
+}
+
+void check_cells(const Method& method, uint32_t cells, uint32_t segments) {
+    if (cells == 0) return;
+    if (!method.any_cells)
+        throw Error(ErrorKind::usage, "the cells of time of method " + method.name + " are its own", "--cells", "leave it out");
+    if (cells % segments != 0 || cells > kMostSegments) {
+        throw Error(ErrorKind::usage,
+                    std::to_string(cells) + " cells of time for " + std::to_string(segments) + " segments of motion", "--cells",
+                    "use a multiple of these, at most " + std::to_string(kMostSegments));
+    }
 }
 
 std::string number_text(double value) {

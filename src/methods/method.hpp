@@ -62,6 +62,7 @@ struct Method {
     bool fractional = false;       ///< Visibility is a share of the light, not a bit.
     bool windowed = true;          ///< Its map can be made for a part of the light's view alone.
     bool any_texels = false;       ///< Its picture does not depend on the texels' size: pages may be split.
+    bool any_cells = false;        ///< Nor on the cells of time: ranges may be cut where one ends.
     bool one_sided = false;        ///< Of closed shells it needs only the faces that look away from the light.
     std::vector<Parameter> parameters = {};
 
@@ -83,6 +84,9 @@ const Method& find_method(std::string_view name);
 
 /// The stage raster/<name> that `option` ("auto" or a name) asks for. Errors: ErrorKind::usage, naming what the method can use.
 std::string choose_raster(const Method& method, const std::string& option);
+
+/// Errors: ErrorKind::usage, where so many cells of time are not 0 and cannot be those of the method's S-buffer.
+void check_cells(const Method& method, uint32_t cells, uint32_t segments);
 
 /// As text, with six significant digits.
 std::string number_text(double value);

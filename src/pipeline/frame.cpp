@@ -80,6 +80,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     auto start = std::chrono::steady_clock::now();
     const Method& method = find_method(settings.method);
     check_parameters(method, settings.parameters);
+    check_cells(method, settings.light_cells, static_cast<uint32_t>(poses.size()) - 1);
     const std::string raster = choose_raster(method, settings.raster);
     Layout layout = with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
     layout.checked = settings.check_layout && method.has_s_buffer();
@@ -91,7 +92,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
                 "--layout", "use a layout that is lossless, or --method exact");
         }
         std::vector<std::string> stages = {"raster/" + raster, method.shadow_stage};
-        if (keeps_ranges(settings)) stages.push_back(read_lists_stage(method.exit_depth));
+        if (reads_lists(settings)) stages.push_back(read_lists_stage(method.exit_depth));
         add_layout_stages(device, programs, layout, stages);
     }
     device.reset_statistics();
@@ -103,6 +104,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     frame.sample_visibility.clear();
     frame.texel_ranges.clear();
     frame.light_ranges.clear();
+    frame.list_lengths.clear();
     frame.width = settings.width;
     frame.height = settings.height;
     frame.light_count = static_cast<uint32_t>(scene.lights.size());
@@ -193,7 +195,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
         }
         read_film(device, sampler.resolve(), frame, rect_of(view, windows[w]));
     }
-    if (keeps_ranges(settings)) shadows.read_ranges(frame);
+    if (reads_lists(settings)) shadows.read_ranges(frame);
     frame.layout_faults = faults ? read_faults(device, faults, layout) : std::vector<LayoutFault>();
 
     const uint64_t hits = sampler.hit_count();

@@ -84,7 +84,7 @@ std::vector<Part> Lights::parts_of(const View& view) const {
     const uint32_t triangles = shared_.geometry.scene->triangle_count;
     const uint32_t still = gpu::values_of<uint32_t>(shared_.device, shared_.geometry.still_triangles)[0];
     if (still == triangles) return {Part::still};
-    const uint32_t cells = light_cells(shared_.geometry.segment_count, shared_.still);
+    const uint32_t cells = light_cells(shared_.geometry.segment_count, shared_.still, settings.light_cells);
     const uint64_t samples = uint64_t(settings.width) * settings.height * settings.spp;
     if (!worth_apart(still, triangles, cells) || uint64_t(still) * (cells - 1) * kPrismHits < samples) return {Part::whole};
     return {Part::still, Part::moving};
@@ -390,6 +390,7 @@ void Lights::report(Frame& frame) const {
 }
 
 void Lights::read_ranges(Frame& frame) {
+    bool asked = false;
     std::vector<RangeCollector> lights(light_count_, RangeCollector(shared_.settings, shared_.method.exit_depth));
     for (size_t i = 0; i < faces_.size(); ++i) {
         LightSide& side = faces_[i].side;
@@ -399,6 +400,9 @@ void Lights::read_ranges(Frame& frame) {
             // What was filled before has no room beside it; half of what there is goes to what is read.
             release();
             make(i, w);
+            // Pages are others for each batch; ranges are kept where there are none.
+            asked = asked || side.asks;
+            if (side.asks) continue;
             const SBuffer* s_buffer = side.map->s_buffer();
             if (s_buffer == nullptr) continue;
             try {
@@ -414,6 +418,7 @@ void Lights::read_ranges(Frame& frame) {
     }
     release();
     for (RangeCollector& light : lights) light.finish(frame);
+    if (asked) frame.list_lengths.clear();
 }
 
 }  // namespace gnomon

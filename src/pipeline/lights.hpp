@@ -48,7 +48,8 @@ public:
 
     /// Write counts, by "name.light", and what was really used.
     void report(Frame& frame) const;
-    /// Fill Frame::texel_ranges and Frame::light_ranges, as far as the settings ask for them. Everything is made once more.
+    /// Fill Frame::texel_ranges, Frame::light_ranges and Frame::list_lengths, as far as the settings ask for them. Everything
+    /// is made once more.
     void read_ranges(Frame& frame);
 
 private:

@@ -24,7 +24,7 @@ bool comes_before(const TexelRange& a, const TexelRange& b) {
 }  // namespace
 
 RangeCollector::RangeCollector(const RenderSettings& settings, bool exit_depths)
-    : keep_counts_(settings.keep_texel_ranges), keep_ranges_(settings.keep_ranges) {
+    : keep_counts_(settings.keep_texel_ranges), keep_ranges_(settings.keep_ranges), keep_lengths_(settings.keep_list_lengths) {
     light_.exit_depths = exit_depths;
 }
 
@@ -45,14 +45,20 @@ void RangeCollector::read(gpu::Device& device, Programs& programs, const SBuffer
         for (const uint32_t count : counts) {
             const auto texel_in_tile = static_cast<uint32_t>(list % shared::kTileTexels);
             const auto item = static_cast<uint32_t>(list++ / shared::kTileTexels);
-            if (count == 0) continue;
+            if (count == 0 && !keep_lengths_) continue;
             const uint32_t tile = grid.tile_first + item / grid.cell_count;
             const uint32_t column = tile % grid.tiles_x * shared::kTileSize + texel_in_tile % shared::kTileSize;
             const uint32_t row = tile / grid.tiles_x * shared::kTileSize + texel_in_tile / shared::kTileSize;
-            if (column >= grid.width || row >= grid.height) {
+            const bool outside = column >= grid.width || row >= grid.height;
+            if (outside && count > 0) {
                 throw Error(ErrorKind::internal, "texels outside of a light's view have ranges", s_buffer.layout().name,
                             "correct the layout, if it is yours, or report it");
             }
+            if (keep_lengths_ && !outside) {
+                if (count >= lengths_.size()) lengths_.resize(uint64_t{count} + 1);
+                ++lengths_[count];
+            }
+            if (count == 0) continue;
             const uint32_t texel = (row_first_ + row) * light_.width + column;
             if (keep_counts_) counts_[texel] += count;
             if (!keep_ranges_) continue;
@@ -71,10 +77,13 @@ void RangeCollector::finish(Frame& frame) {
         counts_.clear();
     }
     std::sort(light_.ranges.begin(), light_.ranges.end(), comes_before);
+    if (lengths_.size() > frame.list_lengths.size()) frame.list_lengths.resize(lengths_.size());
+    for (size_t i = 0; i < lengths_.size(); ++i) frame.list_lengths[i] += lengths_[i];
     if (keep_counts_) frame.texel_ranges.push_back(std::move(counts_));
     if (keep_ranges_) frame.light_ranges.push_back(std::move(light_));
     light_ = {};
     counts_ = {};
+    lengths_ = {};
 }
 
 }  // namespace gnomon

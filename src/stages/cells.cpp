@@ -24,7 +24,8 @@ uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still) {
     return std::max(1u, kFewestCells / segments) * segments;
 }
 
-uint32_t light_cells(uint32_t segments, bool still) {
+uint32_t light_cells(uint32_t segments, bool still, uint32_t asked) {
+    if (asked > 0) return asked;
     if (still) return segments;
     return std::max(1u, kLightCells / segments) * segments;
 }

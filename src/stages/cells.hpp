@@ -10,8 +10,8 @@ namespace gnomon {
 /// each stratum lies in one cell.
 uint32_t camera_cells(uint32_t spp, uint32_t segments, bool still);
 
-/// Cells of time of a light's S-buffer whose ranges may be cut where a cell ends.
-uint32_t light_cells(uint32_t segments, bool still);
+/// Cells of time of a light's S-buffer whose ranges may be cut where a cell ends. asked: so many; 0: what is fast.
+uint32_t light_cells(uint32_t segments, bool still, uint32_t asked = 0);
 
 /// Whether so many triangles that stand still are better listed apart, once and not in each cell: all triangles are then gone
 /// through once more.

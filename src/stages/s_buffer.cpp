@@ -16,6 +16,7 @@ using shared::kTileTexels;
 
 // Places in memory are bound from a multiple of this on, which keeps every binding aligned whatever the size of its elements.
 constexpr uint64_t kPlaceAlign = 64;
+constexpr const char* kScan = "sbuffer/scan";
 constexpr uint32_t kCounters = shared::kMostSizes + 1;
 
 uint64_t align_down(uint64_t value) { return value / kPlaceAlign * kPlaceAlign; }
@@ -92,6 +93,7 @@ uint64_t SBuffer::map_bytes() const {
 std::map<std::string, uint64_t> SBuffer::counts() const {
     std::map<std::string, uint64_t> counts = raster_->counts();
     counts["ranges"] = range_count();
+    counts["lists"] = list_count();
     counts["map_bytes"] = map_bytes();
     return counts;
 }
@@ -347,14 +349,14 @@ void SBuffer::record_sums(const Totals& held) {
         const LayoutSize& size = layout_.sizes[s.index];
         const uint64_t count = values_of_size(size, held), first = values_of_size(size, {{}, band_.item_first});
         if (size.as == LayoutSize::As::values) {
-            recorder.copy("scan", s.values, first * 4, s.band, 0, count * 4);
+            recorder.copy(kScan, s.values, first * 4, s.band, 0, count * 4);
         } else if (size.per == LayoutSize::Per::list || band_.item_count == item_count_) {
-            record_scan(device_, programs_, s.values, static_cast<uint32_t>(count), s.band, first);
+            record_scan(device_, programs_, s.values, static_cast<uint32_t>(count), s.band, first, kScan);
         } else {
             const gpu::Buffer own = device_.allocate("s_buffer.scanned", scan_bytes(count));
-            recorder.fill("scan", own, 0);
-            recorder.copy("scan", s.values, first * 4, own, 0, count * 4);
-            record_scan(device_, programs_, own, static_cast<uint32_t>(count), s.band);
+            recorder.fill(kScan, own, 0);
+            recorder.copy(kScan, s.values, first * 4, own, 0, count * 4);
+            record_scan(device_, programs_, own, static_cast<uint32_t>(count), s.band, 0, kScan);
         }
     }
 }

@@ -13,13 +13,14 @@ namespace {
 constexpr uint32_t kSerialCount = 1024;
 
 void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& recorder, const gpu::Buffer& values,
-                  uint64_t values_first, uint32_t count, const gpu::Buffer& sums, bool first_level, const Scan& scan) {
+                  uint64_t values_first, uint32_t count, const gpu::Buffer& sums, bool first_level, const Scan& scan,
+                  std::string_view stage) {
     using gpu::Texel;
     const auto view = [&](Texel texel) {
         return gpu::Binding{"values", &values, texel, values_first * 4, groups_of(count, 4) * 16};
     };
     if (count <= kSerialCount) {
-        recorder.dispatch("scan", programs.get("scan/serial", {first_level}),
+        recorder.dispatch(stage, programs.get("scan/serial", {first_level}),
                           bindings({view(Texel::r32_uint), {"Sums", &sums}, {"Longest", &scan.longest}}),
                           shared::ScanParams{count, 0, 1}, 1);
         return;
@@ -27,11 +28,11 @@ void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& record
     uint32_t run_count = static_cast<uint32_t>(groups_of(count, shared::kScanRun));
     const gpu::Buffer runs = device.allocate("scan_runs", scan_bytes(run_count));
     const gpu::Buffer before = device.allocate("scan_sums", scan_bytes(run_count));
-    recorder.fill("scan", runs, 0);
-    recorder.dispatch("scan", programs.get("scan/reduce", {first_level}),
+    recorder.fill(stage, runs, 0);
+    recorder.dispatch(stage, programs.get("scan/reduce", {first_level}),
                       bindings({view(Texel::rgba32_uint), {"Runs", &runs}, {"Longest", &scan.longest}}),
                       shared::ScanParams{count, 0, run_count}, groups_of(run_count, 64));
-    record_level(device, programs, recorder, runs, 0, run_count, before, false, scan);
+    record_level(device, programs, recorder, runs, 0, run_count, before, false, scan, stage);
     // The sums are written through bindings of what the device can bind at once; whole runs, and the total behind the last.
     uint64_t most_runs = std::max<uint64_t>(1, device.limits().max_storage_range / (4 * shared::kScanRun) - 1) / 64 * 64;
     for (uint64_t first = 0; first < run_count; first += most_runs) {
@@ -39,7 +40,7 @@ void record_level(gpu::Device& device, Programs& programs, gpu::Recorder& record
         uint64_t offset = first * shared::kScanRun * 4;
         uint64_t bytes = first + part < run_count ? uint64_t(part) * shared::kScanRun * 4 : scan_bytes(count) - offset;
         recorder.dispatch(
-            "scan", programs.get("scan/spread"),
+            stage, programs.get("scan/spread"),
             bindings({view(Texel::rgba32_uint), {"runs", &before, Texel::r32_uint}, {"Sums", &sums, {}, offset, bytes}}),
             shared::ScanParams{count, static_cast<uint32_t>(first), part}, groups_of(part, 64));
     }
@@ -56,12 +57,12 @@ uint64_t scan_work_bytes(uint64_t count) {
 }
 
 Scan record_scan(gpu::Device& device, Programs& programs, const gpu::Buffer& values, uint32_t count, const gpu::Buffer& sums,
-                 uint64_t first) {
+                 uint64_t first, std::string_view stage) {
     gpu::Recorder& recorder = device.recorder();
     Scan scan;
     scan.longest = device.allocate("scan_longest", 4);
-    recorder.fill("scan", scan.longest, 0);
-    record_level(device, programs, recorder, values, first, count, sums, true, scan);
+    recorder.fill(stage, scan.longest, 0);
+    record_level(device, programs, recorder, values, first, count, sums, true, scan, stage);
     return scan;
 }
 

@@ -21,7 +21,8 @@ uint64_t scan_work_bytes(uint64_t count);
 /// Write the exclusive prefix sum of values[first, first + count) to sums[0, count) and the total to sums[count] (0xffffffff:
 /// it does not fit into 32 bits). Two buffers, since what a stage reads through a texel view it must not write. What follows
 /// the values up to a multiple of 4 must be zero before. first: a multiple of 64, which any device can bind from.
+/// stage: what its time counts to.
 Scan record_scan(gpu::Device& device, Programs& programs, const gpu::Buffer& values, uint32_t count, const gpu::Buffer& sums,
-                 uint64_t first = 0);
+                 uint64_t first = 0, std::string_view stage = "scan");
 
 }  // namespace gnomon

@@ -24,8 +24,8 @@ std::string fixed(const std::optional<double>& value, int digits, double unit = 
     return value ? fixed(*value / unit, digits) : "-";
 }
 
-std::string range(const Summary& summary, int digits) {
-    return fixed(summary.min, digits) + " to " + fixed(summary.max, digits);
+std::string range(const timing::Summary& summary, int digits) {
+    return fixed(summary.least, digits) + " to " + fixed(summary.most, digits);
 }
 
 std::string mebibytes(uint64_t bytes) { return fixed(static_cast<double>(bytes) / (1u << 20), 1); }
@@ -60,7 +60,9 @@ std::vector<Cells> for_each_row(const std::vector<Row>& rows, MakeCells make) {
 // Medians of both programs and their ratios, without spreads.
 Cells medians(const Row& row) {
     const bool made = row.refusal.empty();
-    const auto of_gnomon = [&](const Summary& summary, int digits) { return made ? fixed(summary.median, digits) : "-"; };
+    const auto of_gnomon = [&](const timing::Summary& summary, int digits) {
+        return made ? fixed(summary.median, digits) : "-";
+    };
     return {of_gnomon(row.gnomon.wall, 4), fixed(row.embree.wall.median, 4), of_gnomon(row.ratio, 2),
             of_gnomon(row.gnomon.cpu, 3),  fixed(row.embree.cpu.median, 3),  of_gnomon(row.cpu_ratio, 2)};
 }

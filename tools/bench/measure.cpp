@@ -14,10 +14,10 @@ class Timer {
 public:
     template <class Render>
     const Frame& time(Render render) {
-        const Seconds start = now();
+        const timing::Seconds start = timing::now();
         render(frame_);
         const Frame& frame = frame_;
-        cpu_.push_back((now() - start).cpu);
+        cpu_.push_back((timing::now() - start).cpu);
         wall_.push_back(frame.stats.wall_seconds);
         double rest = frame.stats.wall_seconds;
         for (const FrameStats::Stage& stage : frame.stats.stages) rest -= stage.seconds;
@@ -31,11 +31,11 @@ public:
     double last_cpu() const { return cpu_.back(); }
 
     Timing timing() const {
-        Timing result{summarize(wall_), summarize(cpu_), stages_.front(), summarize(rest_)};
+        Timing result{timing::summarize(wall_), timing::summarize(cpu_), stages_.front(), timing::summarize(rest_)};
         for (FrameStats::Stage& stage : result.stages) {
             std::vector<double> runs;
             for (const auto& run : stages_) runs.push_back(seconds_of(run, {stage.name}));
-            stage.seconds = summarize(runs).median;
+            stage.seconds = timing::summarize(runs).median;
         }
         return result;
     }
@@ -105,9 +105,9 @@ Row measure_row(Renderer& renderer, const BenchScene& scene, const PosedScene& p
 
     notify("load and warm-up");
     row.refusal = refusal_of([&] {
-        const Seconds start = now();
+        const timing::Seconds start = timing::now();
         loaded = renderer.load(posed.scene);
-        row.load_seconds = (now() - start).wall;
+        row.load_seconds = (timing::now() - start).wall;
         Frame frame;
         gnomon_frame(frame);
         row.first_seconds = frame.stats.wall_seconds;
@@ -136,8 +136,8 @@ Row measure_row(Renderer& renderer, const BenchScene& scene, const PosedScene& p
     row.peer_errors = errors_of(embree.last(), exact);
     if (!row.refusal.empty()) return row;
     row.gnomon = gnomon.timing();
-    row.ratio = summarize(ratios);
-    row.cpu_ratio = summarize(cpu_ratios);
+    row.ratio = timing::summarize(ratios);
+    row.cpu_ratio = timing::summarize(cpu_ratios);
     render.count_ranges = render.keep_samples = true;
     Frame counted;
     gnomon_frame(counted);

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "bench/bench_scenes.hpp"
-#include "bench/summary.hpp"
 #include "bench/trials.hpp"
 #include "bench/work.hpp"
+#include "timing/summary.hpp"
 
 namespace gnomon::bench {
 
@@ -27,10 +27,10 @@ struct Settings {
 
 /// Timed frames of one program.
 struct Timing {
-    Summary wall;                           ///< Seconds.
-    Summary cpu;                            ///< Seconds of all cores that the process used meanwhile.
+    timing::Summary wall;                   ///< Seconds.
+    timing::Summary cpu;                    ///< Seconds of all cores that the process used meanwhile.
     std::vector<FrameStats::Stage> stages;  ///< Medians.
-    Summary rest;                           ///< Wall seconds that lie in no stage: the host's, and waiting for the device.
+    timing::Summary rest;                   ///< Wall seconds that lie in no stage: the host's, and waiting for the device.
 };
 
 struct Row {
@@ -42,8 +42,8 @@ struct Row {
     std::string refusal;         ///< Why gnomon made no frame; then there is none of its numbers and no ratio.
     Timing gnomon;
     Timing embree;
-    Summary ratio;      ///< Embree's wall seconds over gnomon's, pair by pair.
-    Summary cpu_ratio;  ///< The same of CPU seconds.
+    timing::Summary ratio;      ///< Embree's wall seconds over gnomon's, pair by pair.
+    timing::Summary cpu_ratio;  ///< The same of CPU seconds.
     std::vector<Trial> trials;
     PeerBuild build;          ///< Of the fastest trial.
     PeerRays rays;            ///< Likewise.

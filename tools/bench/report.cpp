@@ -2,40 +2,14 @@
 // The rows of a benchmark as JSON and CSV.
 #include "bench/report.hpp"
 
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
 #include <gnomon/version.hpp>
 #include <sstream>
 #include <thread>
 
+#include "timing/machine.hpp"
+
 namespace gnomon::bench {
 namespace {
-
-std::string utc_now() {
-    const std::time_t now = std::time(nullptr);
-    std::tm utc{};
-    gmtime_r(&now, &utc);
-    char text[32];
-    std::strftime(text, sizeof(text), "%Y-%m-%dT%H:%M:%SZ", &utc);
-    return text;
-}
-
-// As the system calls it; null where it does not say.
-Json cpu_name() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        const size_t colon = line.find(": ");
-        if (line.starts_with("model name") && colon != std::string::npos) return line.substr(colon + 2);
-    }
-    return nullptr;
-}
-
-Json load_average() {
-    double loads[3] = {};
-    const int count = getloadavg(loads, 3);
-    return count == 3 ? Json{loads[0], loads[1], loads[2]} : Json(nullptr);
-}
 
 Json context_json(const Context& context, const std::vector<Row>& rows) {
     const Settings& s = context.settings;
@@ -44,16 +18,12 @@ Json context_json(const Context& context, const std::vector<Row>& rows) {
         const std::string& embree = rows.front().embree_stats.device;  // "Embree 3.13.5, 2 threads"
         versions["embree"] = embree.substr(0, embree.find(','));
     }
-#ifdef NDEBUG
-    const char* build = "release";
-#else
-    const char* build = "debug";
-#endif
-    return {{"date", utc_now()},
+    const std::string cpu = timing::cpu_name();
+    return {{"date", timing::utc_now()},
             {"num_cpus", std::thread::hardware_concurrency()},
-            {"cpu", cpu_name()},
-            {"load_avg", load_average()},
-            {"library_build_type", build},
+            {"cpu", cpu.empty() ? Json(nullptr) : Json(cpu)},
+            {"load_avg", timing::load_average()},
+            {"library_build_type", timing::build_type()},
             {"device", context.device.name},
             {"device_type", context.device.type},
             {"driver", context.device.driver},
@@ -67,8 +37,8 @@ Json context_json(const Context& context, const std::vector<Row>& rows) {
             {"scale", context.scale}};
 }
 
-Json summary_json(const Summary& summary) {
-    return {{"median", summary.median}, {"min", summary.min}, {"max", summary.max}, {"runs", summary.runs}};
+Json summary_json(const timing::Summary& summary) {
+    return {{"median", summary.median}, {"min", summary.least}, {"max", summary.most}, {"runs", summary.samples}};
 }
 
 Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }

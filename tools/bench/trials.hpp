@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/bench_scenes.hpp"
-#include "bench/clocks.hpp"
 #include "peer.hpp"
+#include "timing/clocks.hpp"
 
 namespace gnomon::bench {
 
@@ -15,7 +15,7 @@ namespace gnomon::bench {
 struct Trial {
     PeerBuild build;
     PeerRays rays;
-    Seconds seconds;
+    timing::Seconds seconds;
     bool whole = false;  ///< Otherwise the tracing is estimated from a part of the tiles; posing and building never are.
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "check_scene.hpp"
 
-#include <cmath>
+#include "made_scene.hpp"
 
 namespace gnomon::cli {
 
@@ -16,25 +16,6 @@ std::vector<uint32_t> lengths(bool longest) {
     for (uint32_t n = 64; n <= 1024; n *= 2) all.insert(all.end(), {n - 1, n, n + 1});
     if (longest) all.push_back(20'000);
     return all;
-}
-
-void add_triangle(Scene& scene, const glm::dvec3 (&corners)[3], uint32_t matrix) {
-    const auto first = static_cast<uint32_t>(scene.vertices.size());
-    for (const glm::dvec3& corner : corners) {
-        Vertex vertex;
-        vertex.position = corner;
-        vertex.influence_first = static_cast<uint32_t>(scene.influences.size());
-        vertex.influence_count = 1;
-        scene.influences.push_back({matrix, 1.0f});
-        scene.vertices.push_back(vertex);
-    }
-    scene.triangles.push_back({{first, first + 1, first + 2}, 0});
-}
-
-/// Looking down, a little aside, from above the middle.
-Rigid looking_down(const glm::dvec3& from, double aside) {
-    const double angle = -0.5 * std::acos(-1.0) + aside;
-    return {from, glm::angleAxis(angle, glm::dvec3(1.0, 0.0, 0.0))};
 }
 
 }  // namespace

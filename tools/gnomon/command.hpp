@@ -6,6 +6,7 @@
 #include <functional>
 #include <gnomon/render.hpp>
 #include <string>
+#include <vector>
 
 #include "io/report.hpp"
 
@@ -16,7 +17,8 @@ enum ExitCode : int { kDone = 0, kLostEntries = 7, kOverThreshold = 8, kWrongRes
 
 /// What the command line asks for: filled while it is parsed, run after.
 struct Invocation {
-    std::function<int()> run;  ///< Returns the exit code.
+    std::function<int()> run;                 ///< Returns the exit code.
+    std::vector<std::string> arguments = {};  ///< All, from the program's name on.
     bool quiet = false;
     bool verbose = false;
 };
@@ -33,6 +35,7 @@ void add_devices(CLI::App& app, Invocation& invocation);
 void add_doctor(CLI::App& app, Invocation& invocation);
 void add_layouts(CLI::App& app, Invocation& invocation);
 void add_methods(CLI::App& app, Invocation& invocation);
+void add_bench(CLI::App& app, Invocation& invocation);
 void add_compare(CLI::App& app, Invocation& invocation);
 void add_probe(CLI::App& app, Invocation& invocation);
 void add_sbuffer(CLI::App& app, Invocation& invocation);

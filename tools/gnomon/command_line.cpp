@@ -19,6 +19,7 @@ CommandLine::CommandLine()
     add_doctor(app_, invocation_);
     add_layouts(app_, invocation_);
     add_methods(app_, invocation_);
+    add_bench(app_, invocation_);
     add_compare(app_, invocation_);
     add_probe(app_, invocation_);
     add_sbuffer(app_, invocation_);
@@ -30,6 +31,7 @@ CommandLine::CommandLine()
 }
 
 Invocation& CommandLine::parse(int argc, const char* const* argv) {
+    invocation_.arguments.assign(argv, argv + argc);
     try {
         app_.parse(argc, argv);
     } catch (const CLI::Success& request) {  // --help or --version

@@ -50,9 +50,16 @@ using Text = const std::string&;
 }  // namespace
 
 void bind_frame_options(CLI::App& command, RenderOptions& options) {
-    RenderOptions& o = options;
-    command.add_option("SCENE", o.scene, "Scene, .gltf or .glb")->required()->type_name("");
+    command.add_option("SCENE", options.scene, "Scene, .gltf or .glb")->required()->type_name("");
+    command.add_option("--layout", options.settings.layout, "S-buffer layout")
+        ->type_name("NAME|FOLDER")
+        ->capture_default_str()
+        ->group(kPicture);
+    bind_setting_options(command, options);
+}
 
+void bind_setting_options(CLI::App& command, RenderOptions& options) {
+    RenderOptions& o = options;
     add_parsed(command, "--size", "WxH", "1280x720", "Pixels", [&o](Text text, Text name) {
         const Size size = parse_size(text, name);
         o.settings.width = size.width;
@@ -74,10 +81,6 @@ void bind_frame_options(CLI::App& command, RenderOptions& options) {
         ->type_name("NAME")
         ->capture_default_str()
         ->group(kPicture);
-    command.add_option("--layout", o.settings.layout, "S-buffer layout")
-        ->type_name("NAME|FOLDER")
-        ->capture_default_str()
-        ->group(kPicture);
     command.add_option("--raster", o.settings.raster, "How ranges are found: analytic, conservative, prism; auto is by method")
         ->type_name("NAME")
         ->check(CLI::IsMember({"auto", "analytic", "conservative", "prism"}).description(""))
@@ -92,6 +95,11 @@ void bind_frame_options(CLI::App& command, RenderOptions& options) {
         ->group(kPicture);
     add_parsed(command, "--shadow-res", "N", "1024", "Texels along a light view's side; of a sun's at most, for exact",
                [&o](Text text, Text name) { o.settings.shadow_res = parse_count(text, name, 1, 16384); })
+        ->group(kPicture);
+
+    add_parsed(command, "--cells", "N", "",
+               "Cells of time of a light's S-buffer, a multiple of --time-steps; only of exact [what is fast]",
+               [&o](Text text, Text name) { o.settings.light_cells = parse_count(text, name, 1, kMostSegments); })
         ->group(kPicture);
 
     command

@@ -51,7 +51,10 @@ struct FrameJob {
     std::optional<std::filesystem::path> heatmap = {};
 };
 
-/// Declare the options that say what one frame is; `options` must live until the command line is parsed.
+/// Declare the options that say how a scene becomes a picture; `options` must live until the command line is parsed.
+void bind_setting_options(CLI::App& command, RenderOptions& options);
+
+/// Those and which scene and layout.
 void bind_frame_options(CLI::App& command, RenderOptions& options);
 
 /// Those and the options of outputs and of sequences.

@@ -6,22 +6,9 @@
 
 #include <gnomon/error.hpp>
 
-#include "bench/summary.hpp"
 
 namespace gnomon::bench {
 namespace {
-
-using testing::ElementsAre;
-
-TEST(Summary, OddAndEvenNumbersOfRuns) {
-    const Summary odd = summarize({3.0, 1.0, 7.0});
-    EXPECT_EQ(odd.median, 3.0);
-    EXPECT_EQ(odd.min, 1.0);
-    EXPECT_EQ(odd.max, 7.0);
-    EXPECT_THAT(odd.runs, ElementsAre(3.0, 1.0, 7.0));
-    EXPECT_EQ(summarize({4.0, 1.0, 2.0, 9.0}).median, 3.0);
-    EXPECT_EQ(summarize({5.0}).median, 5.0);
-}
 
 // 16x8 pixels, two tiles, 4 samples per pixel.
 Frame hand_made() {

@@ -6,7 +6,7 @@
 
 #include <chrono>
 
-namespace gnomon::bench {
+namespace gnomon::timing {
 
 struct Seconds {
     double wall = 0.0;
@@ -24,4 +24,4 @@ inline Seconds now() {
             seconds(usage.ru_utime) + seconds(usage.ru_stime)};
 }
 
-}  // namespace gnomon::bench
+}  // namespace gnomon::timing
