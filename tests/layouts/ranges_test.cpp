@@ -8,6 +8,7 @@
 #include "pipeline/range_collector.hpp"
 #include "soup.hpp"
 #include "stage_test.hpp"
+#include "support/tested_layouts.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -127,7 +128,7 @@ TEST_F(RangesTest, ContainTheOraclesAndAreTheSameInEveryLayout) {
             soup.add_prisms(88, random);
             const LightSoup light = prepare(std::move(soup), c.cells);
             Lists first;
-            for (const std::string& layout : layout_names()) {
+            for (const std::string& layout : tested_layouts()) {
                 if (!find_layout(layout).lossless) continue;
                 SCOPED_TRACE(testing::Message() << layout << ", " << c.width << "x" << c.height << ", " << c.segments
                                                 << " segments, " << c.cells << " cells, orthographic " << orthographic);
@@ -166,7 +167,7 @@ TEST_F(RangesTest, CollectedByTexel) {
     RenderSettings settings;
     settings.keep_texel_ranges = settings.keep_ranges = true;
     std::vector<TexelRange> first;
-    for (const std::string& layout : layout_names()) {
+    for (const std::string& layout : tested_layouts()) {
         if (!find_layout(layout).lossless) continue;
         SCOPED_TRACE(layout);
         SBuffer s_buffer = s_buffer_of(light, layout);
@@ -199,7 +200,7 @@ TEST_F(RangesTest, BandsTogetherAreTheWhole) {
     Soup soup(1, 160, 100, true);
     soup.add_prisms(300, random);
     const LightSoup light = prepare(std::move(soup), 4);
-    for (const std::string& layout : layout_names()) {
+    for (const std::string& layout : tested_layouts()) {
         if (!find_layout(layout).lossless) continue;
         SCOPED_TRACE(layout);
         SBuffer s_buffer = s_buffer_of(light, layout);
@@ -247,7 +248,7 @@ TEST_F(RangesTest, OfLossyLayouts) {
     SBuffer array = s_buffer_of(light, "array");
     const Lists exact = whole(array);
     int contain = 0, count = 0;
-    for (const std::string& name : layout_names()) {
+    for (const std::string& name : tested_layouts()) {
         const Layout layout = find_layout(name);
         if (layout.lossless) continue;
         SCOPED_TRACE(name);
@@ -276,7 +277,7 @@ TEST_F(RangesTest, EmptyView) {
     std::mt19937 random(33);
     for (int i = 0; i < 10; ++i) soup.add_prism(oracle::make_prism(oracle::PrismKind::behind, false, glm::dvec2(0.0), random));
     const LightSoup light = prepare(std::move(soup), 2);
-    for (const std::string& layout : layout_names()) {
+    for (const std::string& layout : tested_layouts()) {
         SBuffer s_buffer = s_buffer_of(light, layout);
         EXPECT_EQ(s_buffer.range_count(), 0u);
         EXPECT_EQ(total(whole(s_buffer)), 0u);
@@ -291,7 +292,7 @@ TEST_F(RangesTest, LongLists) {
     const LightSoup light = prepare(std::move(soup), 1);
     ASSERT_GT(light.bins.longest, 2 * shared::kListChunk);
     Lists first;
-    for (const std::string& layout : layout_names()) {
+    for (const std::string& layout : tested_layouts()) {
         if (!find_layout(layout).lossless) continue;
         SCOPED_TRACE(layout);
         SBuffer s_buffer = s_buffer_of(light, layout);

@@ -9,6 +9,7 @@
 #include "pipeline/light_records.hpp"
 #include "pipeline/memory_plan.hpp"
 #include "stage_test.hpp"
+#include "support/tested_layouts.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -161,7 +162,7 @@ TEST_F(ShadowTest, AgreeWithTheOracleInEveryLayout) {
         const MovingTriangles scene = flying(segments, 60, 0.4f, segments);
         const glm::uvec2 size(50, 38);
         Answers first;
-        for (const std::string& layout : layout_names()) {
+        for (const std::string& layout : tested_layouts()) {
             if (!answers_exactly(layout)) continue;
             SCOPED_TRACE(testing::Message() << layout << ", " << segments << " segments");
             const Answers answers = run(scene, size, {layout, segments, 1, 1u << 20, 64});
@@ -199,7 +200,7 @@ TEST_F(ShadowTest, CellsBandsAndBatchesDoNotMatter) {
     const MovingTriangles scene = flying(2, 80, 0.3f, 7);
     const glm::uvec2 size(40, 30);
     const Answers expected = run(scene, size, {"array", 2, 1, 1u << 20, 256});
-    for (const std::string& layout : layout_names()) {
+    for (const std::string& layout : tested_layouts()) {
         if (!find_layout(layout).lossless) continue;
         for (const ShadowSetup& setup : {ShadowSetup{layout, 8, 1, 1u << 20, 256}, ShadowSetup{layout, 2, 3, 1u << 20, 256},
                                          ShadowSetup{layout, 4, 3, 256, 256, true}}) {
@@ -217,7 +218,7 @@ TEST_F(ShadowTest, LongLists) {
     const MovingTriangles scene = flying(1, 30'000, 0.03f, 9);
     const glm::uvec2 size(12, 10);
     Answers first;
-    for (const std::string& layout : layout_names()) {
+    for (const std::string& layout : tested_layouts()) {
         if (!answers_exactly(layout)) continue;
         SCOPED_TRACE(layout);
         const Answers answers = run(scene, size, {layout, 1, 1, 1u << 20, 1});

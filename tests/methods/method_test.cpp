@@ -11,6 +11,7 @@
 #include "layouts/layout.hpp"
 #include "stages/cells.hpp"
 #include "stages/programs.hpp"
+#include "support/tested_layouts.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -37,7 +38,7 @@ TEST(MethodTest, NamesAreUniqueAndStagesExist) {
             EXPECT_FALSE(find_shader(method.shadow_stage).spirv.empty()) << method.name;
             continue;
         }
-        for (const std::string& layout : layout_names()) {
+        for (const std::string& layout : tested_layouts()) {
             if (!is_compiled(find_layout(layout))) continue;
             EXPECT_FALSE(find_shader(method.shadow_stage + "@" + layout).spirv.empty());
             for (const std::string& raster : method.rasters)
