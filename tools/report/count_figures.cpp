@@ -19,11 +19,25 @@ constexpr double kWidth = 480.0, kTop = 30.0, kRow = 24.0, kBar = 14.0, kMostNam
 struct Count {
     const char* member;
     const char* title;
+    const char* meaning;
 };
-constexpr Count kCounts[] = {{"sectors_per_query", "sectors"}, {"lines_per_query", "lines"}, {"bytes_per_query", "bytes"}};
+/// By what they say of memory: the first that were counted are shown.
+constexpr Count kCounts[] = {{"sectors_per_query", "sectors", "distinct 32-byte sectors of the queries of a subgroup"},
+                             {"lines_per_query", "lines", "distinct 128-byte lines of the queries of a subgroup"},
+                             {"bytes_per_query", "bytes", "bytes asked for"},
+                             {"ranges_visited_per_query", "ranges", "ranges visited"},
+                             {"triangles_tested_per_query", "tests", "triangles tested"}};
+constexpr size_t kMostColumns = 3;
 
 bool has(const std::vector<const Case*>& cases, const Count& count) {
     return std::any_of(cases.begin(), cases.end(), [&](const Case* c) { return c->count(count.member).has_value(); });
+}
+
+std::vector<Count> shown_counts(const std::vector<const Case*>& cases) {
+    std::vector<Count> counts;
+    for (const Count& count : kCounts)
+        if (counts.size() < kMostColumns && has(cases, count)) counts.push_back(count);
+    return counts;
 }
 
 /// A column of bars for each count, each on a scale of its own.
@@ -31,9 +45,8 @@ Plot count_plot(const Sources& sources, const std::vector<const Case*>& cases, c
     double names = 0.0;
     for (const Case* c : cases) names = std::max(names, text_width(c->layout));
     names = std::min(names, kMostName) + 16.0;
-    const auto columns = static_cast<double>(
-        std::count_if(std::begin(kCounts), std::end(kCounts), [&](const Count& c) { return has(cases, c); }));
-    const double column = (kWidth - names) / columns, bars = column - kValue - kGap;
+    const std::vector<Count> counts = shown_counts(cases);
+    const double column = (kWidth - names) / static_cast<double>(counts.size()), bars = column - kValue - kGap;
     const double bottom = kTop + kRow * static_cast<double>(cases.size());
 
     std::string content;
@@ -41,8 +54,7 @@ Plot count_plot(const Sources& sources, const std::vector<const Case*>& cases, c
         content += label("name left", names - 8.0, kTop + kRow * (static_cast<double>(i) + 0.5) + 4.0,
                          shortened(cases[i]->layout, kMostName));
     double left = names;
-    for (const Count& count : kCounts) {
-        if (!has(cases, count)) continue;
+    for (const Count& count : counts) {
         double most = 0.0;
         for (const Case* c : cases) most = std::max(most, c->count(count.member).value_or(0.0));
         content += label("title", left, 18.0, count.title) + line("axis", left, kTop, left, bottom);
@@ -60,7 +72,10 @@ Plot count_plot(const Sources& sources, const std::vector<const Case*>& cases, c
 }
 
 std::string caption_of(const std::vector<const Case*>& cases) {
-    for (const Count& count : kCounts) {
+    const std::vector<Count> counts = shown_counts(cases);
+    std::string caption, meanings;
+    for (const Count& count : counts) {
+        meanings += fmt::format("{} {}: {}", meanings.empty() ? "" : ";", count.title, count.meaning);
         const Case *least = nullptr, *most = nullptr;
         for (const Case* c : cases) {
             const std::optional<double> value = c->count(count.member);
@@ -68,14 +83,11 @@ std::string caption_of(const std::vector<const Case*>& cases) {
             if (least == nullptr || *value < *least->count(count.member)) least = c;
             if (most == nullptr || *value > *most->count(count.member)) most = c;
         }
-        if (least == nullptr) continue;
-        return fmt::format(
-            "A query of {} reads the fewest {}, {}, of {} the most, {}. Counted by the accessors, for the queries of a "
-            "subgroup "
-            "together: distinct 32-byte sectors, distinct 128-byte lines, and bytes asked for.",
-            least->layout, count.title, shown(*least->count(count.member)), most->layout, shown(*most->count(count.member)));
+        if (least != nullptr && caption.empty())
+            caption = fmt::format("A query of {} has the fewest {}, {}, of {} the most, {}.", least->layout, count.title,
+                                  shown(*least->count(count.member)), most->layout, shown(*most->count(count.member)));
     }
-    return "Distinct 32-byte sectors, distinct 128-byte lines, and bytes asked for, of the queries of a subgroup.";
+    return caption + " Counted, not timed:" + meanings + ".";
 }
 
 }  // namespace

@@ -48,10 +48,10 @@ html::Bar bar_of(const Case& c, const std::vector<Stage>& stages) {
 
 std::string caption_of(const html::BarPlot& plot) {
     std::string caption;
-    const auto is_floor = [](const html::Bar& bar) { return bar.name == kNullLayout; };
-    const auto first = std::find_if_not(plot.bars.begin(), plot.bars.end(), is_floor);
+    const auto is_left_out = [](const html::Bar& bar) { return bar.name == kNullLayout || bar.name.ends_with(", again"); };
+    const auto first = std::find_if_not(plot.bars.begin(), plot.bars.end(), is_left_out);
     if (first != plot.bars.end()) {
-        const auto last = std::find_if_not(plot.bars.rbegin(), plot.bars.rend(), is_floor);
+        const auto last = std::find_if_not(plot.bars.rbegin(), plot.bars.rend(), is_left_out);
         const double whole = sum_of(*last);
         caption =
             fmt::format("Building and one query of {} take least, {}; of {} most, {}, {:.0f} % of it the query.", first->name,

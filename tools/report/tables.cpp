@@ -169,8 +169,7 @@ DataTable times_table(const std::vector<BenchFile>& files) {
     const RowHead head(files);
     DataTable table{"times",
                     "Times",
-                    "Medians in milliseconds, and the quartiles of the query; of the processor, seconds of all its "
-                    "cores in milliseconds.",
+                    "Medians in milliseconds, and the quartiles of the query; cpu is the process's time on all cores together.",
                     head.columns(),
                     {}};
     append(table.columns, Columns{{"query", "ms"}, {"q1", "ms"}, {"q3", "ms"}});

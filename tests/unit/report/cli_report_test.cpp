@@ -62,7 +62,7 @@ TEST_F(CliReportTest, PageHasAllSections) {
           "From shadow-res 256 to 512 the query of array goes from 4 to 8 ms.", "array and small are on the Pareto front",
           "2.50 ranges per texel in the mean and 5 at most",
           "Not counted, since ranges were lost or the picture is another: linked.", "timed out after 60 s &amp; gave nothing",
-          "A query of small reads the fewest sectors"})
+          "A query of small has the fewest sectors"})
         EXPECT_THAT(page, HasSubstr(sentence));
     for (const char* plot :
          {"plot ratios", "plot bars", "plot curves", "plot front", "plot counts", "plot lengths", "plot texels"})
