@@ -2,7 +2,6 @@
 // S-buffer layout "no-depth": 8 bytes a range, side by side: [enter 16 | leave 16 | entry 32]. Times are rounded outward, and ranges are as near as can be: more triangles are
 // tested, and the answer of a test that asks the triangles is the same.
 // Memory: 8 bytes per range, 8 bytes per list (its count and its offset).
-
 #include "library/rounded.glsl"
 
 const float kSteps = 65536.0;

@@ -95,8 +95,8 @@ TEST_F(CliLayoutsTest, Check) {
     EXPECT_THAT(right.out, Not(HasSubstr("failed")));
     ASSERT_EQ(layouts({"new", "mine", "--from", "no-depth"}).exit_code, 0);
     std::string text = content_of(folder / "mine" / "layout.glsl");
-    put_content(folder / "mine" / "layout.glsl", text.replace(text.find("ceil("), 5, "floor(-2.0 + "));
-    const CommandResult wrong = layouts({"check", "mine", "--json", "a.json"});
+    put_content(folder / "mine" / "layout.glsl", text.insert(text.find("range.leave"), "0.9 * "));
+    const CommandResult wrong = layouts({"check", "mine", "--fail-fast", "--json", "a.json"});
     EXPECT_EQ(wrong.exit_code, 9);
     EXPECT_THAT(wrong.err, HasSubstr("exact, sun failed: light 0, texel "));
     EXPECT_THAT(wrong.err, HasSubstr("ranges; not contained is triangle "));
@@ -174,8 +174,10 @@ TEST_F(CliLayoutsCheckTest, NamesWhatIsWrong) {
         {"sorted-depth", "layout.glsl", " && !query.all", "", "ranges; lost is triangle "},
         {"sorted-time", "layout.glsl", "range.enter > query.t", "range.enter > 0.5 * query.t", "pixel "},
         {"sorted-time", "layout.glsl", "fetch_ranges(place).x", "-fetch_ranges(place).x", "pixel "},
-        {"no-depth", "layout.glsl", "ceil(", "floor(-2.0 + ", "ranges; not contained is triangle "},
-        {"no-depth", "layout.glsl", "floor(range.enter", "ceil(1.0 + range.enter", "ranges; not contained is triangle "},
+        {"no-depth", "layout.glsl", "leave_step(range.leave", "leave_step(0.9 * range.leave",
+         "ranges; not contained is triangle "},
+        {"no-depth", "layout.glsl", "enter_step(range.enter", "enter_step(0.1 + range.enter",
+         "ranges; not contained is triangle "},
         {"no-depth", "layout.glsl", "-kFarthest, range.y", "0.0, range.y", "ranges; not contained is triangle "},
         {"no-depth", "layout.json", "\"lossless\": false", "\"lossless\": true", "there is none of triangle "},
         {"fixed", "layout.glsl", "count_lost(cursor - K)", "count_lost(1u)", "are lost, and "},
@@ -199,8 +201,8 @@ TEST_F(CliLayoutsCheckTest, NamesWhatIsWrong) {
         {"fixed", "layout.glsl", "min(cursor, K)", "cursor", ""},
         {"fixed", "layout.glsl", "if (cursor < K)", "if (cursor <= K)", ""},
         // Walks without an end.
-        {"array", "layout.glsl", "    ++it.x;\n", "", "walks do not end, one of list "},
-        {"linked", "layout.glsl", "    it = fetch_links(it);\n", "", "walks do not end, one of list "},
+        {"array", "layout.glsl", "    ++it.x;\n", "", "ranges, some of them twice"},
+        {"linked", "layout.glsl", "    it = fetch_links(it);\n", "", "ranges, some of them twice"},
         {"linked", "layout.glsl", "return it != kNone;", "return true;", ""},
     };
     for (const auto& m : mistakes) {
