@@ -79,6 +79,28 @@ struct NewOptions {
     std::string from = "array";
 };
 
+/// Where the string that is the value of the manifest's own member begins and ends, with its quotes; it is there.
+std::pair<size_t, size_t> string_member(const std::string& json, std::string_view member) {
+    const auto string_end = [&](size_t open) {
+        size_t close = open + 1;
+        while (json[close] != '"') close += json[close] == '\\' ? 2 : 1;
+        return close + 1;
+    };
+    int depth = 0;
+    for (size_t i = 0; i < json.size(); ++i) {
+        if (json[i] == '{' || json[i] == '[') ++depth;
+        if (json[i] == '}' || json[i] == ']') --depth;
+        if (json[i] != '"') continue;
+        const size_t end = string_end(i), next = json.find_first_not_of(" \t\r\n", end);
+        if (depth == 1 && json[next] == ':' && json.compare(i + 1, end - i - 2, member) == 0) {
+            const size_t open = json.find('"', next);
+            return {open, string_end(open)};
+        }
+        i = end - 1;
+    }
+    throw Error(ErrorKind::internal, "a manifest without " + std::string(member), "layout.json", "report this as a bug");
+}
+
 // A copy of another, under a name of its own.
 int make_layout(const NewOptions& options) {
     LayoutFiles files = layout_files(options.from);
@@ -87,10 +109,8 @@ int make_layout(const NewOptions& options) {
     std::error_code error;
     if (std::filesystem::exists(folder, error))
         throw Error(ErrorKind::input, "there is something of that name", options.folder, "name a folder that is not there");
-    // The first string behind the first "name" is the layout's.
-    const size_t member = files.manifest.find("\"name\""), open = files.manifest.find('"', files.manifest.find(':', member));
-    const size_t close = files.manifest.find('"', open + 1);
-    files.manifest.replace(open, close - open + 1, io::Json(name).dump());
+    const auto [open, end] = string_member(files.manifest, "name");
+    files.manifest.replace(open, end - open, io::Json(name).dump());
     if (!std::filesystem::create_directory(folder, error))
         throw Error(ErrorKind::input, "the folder cannot be made: " + error.message(), options.folder, "name another one");
     io::write_file(folder / "layout.json", files.manifest);
