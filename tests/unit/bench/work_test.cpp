@@ -6,7 +6,6 @@
 
 #include <gnomon/error.hpp>
 
-
 namespace gnomon::bench {
 namespace {
 

@@ -136,8 +136,9 @@ TEST_F(CliDoctorTest, FindsAPictureWithoutShadows) {
 
 TEST_F(CliDoctorTest, FindsAPictureThatLosesSomeRanges) {
     GN_SKIP_WITHOUT_DEVICE(run({"devices"}));
-    expect_wrong_picture(broken_layout("    ++it.x;\n", "    ++it.x;\n    if (range.enter > 0.7) range.enter = range.leave = 2.0;\n"),
-                         "standard errors");
+    expect_wrong_picture(
+        broken_layout("    ++it.x;\n", "    ++it.x;\n    if (range.enter > 0.7) range.enter = range.leave = 2.0;\n"),
+        "standard errors");
 }
 
 TEST_F(CliDoctorTest, DevicesSaysWhatLimitsAndFaultsThereAre) {
