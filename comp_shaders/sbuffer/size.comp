@@ -48,8 +48,7 @@ void main() {
     uint size = size_of(tile, texel);
     sizes[kTiles ? i : list_at(tile, texel).index - params.list_first] = size;
     if (kTiles) {
-        uint before = atomicAdd(range_counts[tile / kCountBlock].x, size);
-        if (before + size < before) atomicAdd(range_counts[tile / kCountBlock].y, 1u);
+        add_to_block(tile / kCountBlock, size);
     } else {
         add_range_count(tile / kCountBlock, size);
     }

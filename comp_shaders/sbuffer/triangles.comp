@@ -12,9 +12,10 @@ layout(constant_id = 0) const bool kAsked = false;
 READ_UINT(0, bin_offsets)
 READ_UINT(1, bin_entries)
 layout(binding = 2, scalar) writeonly buffer Sizes { uint sizes[]; };
-layout(binding = 3, scalar) buffer SizeTotals { uvec2 totals[]; };
+layout(binding = 3, scalar) buffer SizeTotals { uvec2 range_counts[]; };
 layout(push_constant, scalar) uniform Push { RasterParams params; };
 #include "common/source_page.glsl"
+#include "common/range_count.glsl"
 
 void main() {
     uint i = group_index() * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
@@ -22,6 +23,5 @@ void main() {
     Page page = fetch_page(i);
     uint size = max(page.end, page.begin) - page.begin;
     sizes[i] = size;
-    uint before = atomicAdd(totals[i / kCountBlock].x, size);
-    if (before + size < before) atomicAdd(totals[i / kCountBlock].y, 1u);
+    add_to_block(i / kCountBlock, size);
 }

@@ -41,7 +41,7 @@ std::string atomic_name(const std::string& operation) {
     return name + "_@";
 }
 
-// For stages that see buffers: what checks them.
+// What checks accesses, in stages that see buffers.
 constexpr const char* kChecks = R"(#if defined(LAYOUT_WRITE) || defined(LAYOUT_READ)
 #define LAYOUT_CHECKED
 layout(binding = 18, scalar) buffer LayoutFaults { uvec2 layout_faults[]; };  // Of each buffer, and of walks: how often, the index of one.
@@ -55,7 +55,7 @@ uint checked_place(uint number, uint place, uint count, uint i) {
 #endif
 )";
 
-// The place of element i; without checks as it is.
+// The place of element i, if it is one of so many; else the first.
 std::string checked_place(size_t number, const std::string& place, const std::string& count) {
     return "checked_place(" + std::to_string(number) + "u, " + place + ", " + count + ", i)";
 }

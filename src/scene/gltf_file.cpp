@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <system_error>
+
+#include "text/percent_decoded.hpp"
 
 namespace gnomon::gltf {
 
@@ -115,27 +118,10 @@ void read_glb(InputFile& file, SceneFile& scene, std::vector<std::string>& warni
     }
 }
 
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return -1;
-}
-
-std::string percent_decoded(std::string_view text, const Cursor& uri) {
-    std::string result;
-    for (size_t i = 0; i < text.size(); ++i) {
-        if (text[i] != '%') {
-            result.push_back(text[i]);
-            continue;
-        }
-        const int high = i + 1 < text.size() ? hex_digit(text[i + 1]) : -1;
-        const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
-        if (high < 0 || low < 0) uri.fail("'%' is not followed by two hexadecimal digits", "write a plain '%' as %25");
-        result.push_back(static_cast<char>(high * 16 + low));
-        i += 2;
-    }
-    return result;
+std::string decoded(std::string_view text, const Cursor& uri) {
+    std::optional<std::string> result = percent_decoded(text);
+    if (!result) uri.fail("'%' is not followed by two hexadecimal digits", "write a plain '%' as %25");
+    return std::move(*result);
 }
 
 bool has_scheme(std::string_view uri) {
@@ -150,7 +136,7 @@ fs::path resolve(const fs::path& folder, const Cursor& uri) {
     const std::string& text = uri.string();
     const std::string stay_inside = "files must lie in the scene's own folder and be named relative to it";
     if (has_scheme(text)) uri.fail("the address '" + text.substr(0, 80) + "' is not a file name", stay_inside);
-    const fs::path relative = percent_decoded(text, uri);
+    const fs::path relative = decoded(text, uri);
     if (relative.empty()) uri.fail("the address is empty", "name a file");
     if (relative.native().find('\0') != std::string::npos) uri.fail("the address holds a zero character", "name a file");
     if (relative.is_absolute()) uri.fail("the address '" + text + "' is an absolute path", stay_inside);
@@ -227,8 +213,8 @@ std::vector<uint8_t> read_uri(const fs::path& folder, const Cursor& uri, uint64_
         if (std::string_view(text).substr(0, comma).ends_with(";base64")) {
             bytes = base64_decoded(std::string_view(text).substr(comma + 1), uri);
         } else {
-            const std::string decoded = percent_decoded(std::string_view(text).substr(comma + 1), uri);
-            bytes.assign(decoded.begin(), decoded.end());
+            const std::string plain = decoded(std::string_view(text).substr(comma + 1), uri);
+            bytes.assign(plain.begin(), plain.end());
         }
         check_size(bytes.size());
         if (take != 0) bytes.resize(std::min<uint64_t>(take, bytes.size()));

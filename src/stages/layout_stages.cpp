@@ -2,13 +2,11 @@
 #include "stages/layout_stages.hpp"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <mutex>
-#include <tuple>
+#include <optional>
 
 #include "gpu/reflection.hpp"
 #include "layouts/compile_layout.hpp"
+#include "text/read_text.hpp"
 
 namespace gnomon {
 namespace {
@@ -22,46 +20,21 @@ std::set<std::string> bound_by(const std::string& stage) {
     return names;
 }
 
-// All that a folder's layout is compiled from, which stays where it is; empty where that is too much to compare.
-std::string content_of(const std::filesystem::path& folder) {
+// All that a folder's layout is compiled from; nothing, where that is too much to keep.
+std::optional<std::string> source_of(const std::filesystem::path& folder) {
     constexpr size_t kMostBytes = size_t{4} << 20, kMostFiles = 256;
-    std::string content;
+    std::string source, reason;
     size_t files = 0;
     std::error_code error;
     std::filesystem::recursive_directory_iterator entry(folder, error), end;
     for (; !error && entry != end; entry.increment(error)) {
         if (!entry->is_regular_file(error)) continue;
-        std::error_code unknown;
-        if (++files > kMostFiles || entry->file_size(unknown) > kMostBytes - content.size()) return "";
-        std::ifstream file(entry->path(), std::ios::binary);
-        content += entry->path().string() + '\0';
-        content.append(std::istreambuf_iterator<char>(file), {});
-        if (!file || content.size() > kMostBytes) return "";
+        const std::optional<std::string> text = read_text(entry->path(), reason);
+        if (!text || ++files > kMostFiles || text->size() > kMostBytes - source.size()) return std::nullopt;
+        source += entry->path().string() + '\0' + *text;
+        if (source.size() > kMostBytes) return std::nullopt;
     }
-    return error ? "" : content;
-}
-
-// As compile_stage, of a folder's layout. What was compiled of the same content is taken again: to compile takes longer than
-// many a frame.
-std::vector<uint32_t> compile_again(const std::string& stage, const Layout& layout, bool storage_reads,
-                                    const std::string& content) {
-    if (content.empty()) return compile_stage(stage, layout, storage_reads, bound_by(stage));
-    struct Compiled {
-        std::string content;
-        std::vector<uint32_t> spirv;
-    };
-    static std::mutex mutex;
-    static std::map<std::tuple<std::string, bool, bool>, Compiled> all;
-    const std::tuple key(layout.stage(stage), layout.exit_depth, storage_reads);
-    {
-        const std::lock_guard lock(mutex);
-        const auto found = all.find(key);
-        if (found != all.end() && found->second.content == content) return found->second.spirv;
-    }
-    std::vector<uint32_t> spirv = compile_stage(stage, layout, storage_reads, bound_by(stage));
-    const std::lock_guard lock(mutex);
-    all[key] = {content, spirv};
-    return spirv;
+    return error ? std::nullopt : std::optional(std::move(source));
 }
 
 }  // namespace
@@ -79,15 +52,12 @@ void add_layout_stages(gpu::Device& device, Programs& programs, const Layout& la
     if (is_compiled(layout)) return;
     std::vector<std::string> all = s_buffer_stages(layout);
     all.insert(all.end(), stages.begin(), stages.end());
-    const bool storage_reads = device.limits().storage_reads();
-    const std::string content = layout.folder.empty() ? "" : content_of(layout.folder);
+    const std::optional<std::string> source = layout.folder.empty() ? std::string() : source_of(layout.folder);
     for (const std::string& stage : all) {
         const std::string name = layout.stage(stage);
-        if (!layout.folder.empty()) {  // What lies there may be another by now.
-            programs.add(name, compile_again(stage, layout, storage_reads, content));
-        } else if (!programs.has(name)) {
-            programs.add(name, compile_stage(stage, layout, storage_reads, bound_by(stage)));
-        }
+        // What lies in a folder may be another by now. To compile takes longer than many a frame.
+        if (source && programs.has(name, *source)) continue;
+        programs.add(name, compile_stage(stage, layout, device.limits().storage_reads(), bound_by(stage)), source.value_or(""));
     }
 }
 

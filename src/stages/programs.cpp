@@ -21,12 +21,16 @@ gpu::Shader find_shader(const std::string& name) {
     throw Error(ErrorKind::internal, "no such stage", name, "report this as a bug");
 }
 
-bool Programs::has(const std::string& name) const { return added_.count(name) > 0 || has_shader(name); }
+bool Programs::has(const std::string& name, const std::string& source) const {
+    const auto found = added_.find(name);
+    return found != added_.end() && found->second.source == source;
+}
 
-void Programs::add(const std::string& name, std::vector<uint32_t> spirv) {
-    std::vector<uint32_t>& known = added_[name];
-    if (known == spirv) return;
-    known = std::move(spirv);
+void Programs::add(const std::string& name, std::vector<uint32_t> spirv, std::string source) {
+    Added& known = added_[name];
+    known.source = std::move(source);
+    if (known.spirv == spirv) return;
+    known.spirv = std::move(spirv);
     std::erase_if(programs_, [&](const auto& program) { return program.first.first == name; });
 }
 
@@ -39,7 +43,7 @@ const gpu::Program& Programs::get(const std::string& name, const std::vector<uin
         values.push_back({shared::kThreadsConstant, device_.limits().threads});
         auto added = added_.find(name);
         const char* variant = device_.limits().storage_reads() ? "+storage" : "";
-        gpu::Shader shader = added == added_.end() ? find_shader(name + variant) : gpu::Shader{name, added->second};
+        gpu::Shader shader = added == added_.end() ? find_shader(name + variant) : gpu::Shader{name, added->second.spirv};
         found = programs_.emplace(key, device_.program(shader, values)).first;
     }
     return found->second;

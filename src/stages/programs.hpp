@@ -20,11 +20,10 @@ class Programs {
 public:
     explicit Programs(gpu::Device& device) : device_(device) {}
 
-    /// There is a stage of this name.
-    bool has(const std::string& name) const;
-
-    /// A stage that is not embedded, or another version of one that was added before.
-    void add(const std::string& name, std::vector<uint32_t> spirv);
+    /// A stage that is not embedded, or another version of one that was added before. source: what it was compiled from.
+    void add(const std::string& name, std::vector<uint32_t> spirv, std::string source = {});
+    /// The stage was added, and compiled from this.
+    bool has(const std::string& name, const std::string& source) const;
 
     /// The stage specialised with constant_id 0, 1, ... = constants. Valid as long as this object, or until the stage is added
     /// anew.
@@ -35,7 +34,11 @@ public:
 
 private:
     gpu::Device& device_;
-    std::map<std::string, std::vector<uint32_t>> added_;
+    struct Added {
+        std::vector<uint32_t> spirv;
+        std::string source;
+    };
+    std::map<std::string, Added> added_;
     std::map<std::pair<std::string, std::vector<uint32_t>>, gpu::Program> programs_;
 };
 

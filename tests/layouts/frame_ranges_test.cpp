@@ -218,14 +218,20 @@ TEST(FrameRanges, AreTheSameHoweverTheyWereMade) {
     }
 }
 
-// Bands, and windows; and many ranges to read.
-TEST(FrameRanges, DoNotDependOnTheBudget) {
-    const MovingTriangles scene = small_scene(LightKind::spot);
+/// Over a million of the small scene's, and a small picture.
+RenderSettings many_ranges() {
     RenderSettings settings;
     settings.width = settings.height = 16;
     settings.spp = 1;
     settings.shadow_res = 2000;
     settings.keep_ranges = true;
+    return settings;
+}
+
+// Bands, and windows; and many ranges to read.
+TEST(FrameRanges, DoNotDependOnTheBudget) {
+    const MovingTriangles scene = small_scene(LightKind::spot);
+    RenderSettings settings = many_ranges();
     for (const std::string layout : {"array", "linked"}) {
         settings.layout = layout;
         settings.memory_budget = 0;
@@ -248,11 +254,7 @@ uint64_t fills(const Frame& frame) {
 // Where a binding holds less than the ranges, a band is written in parts, the places of each bound from its own first on.
 TEST(FrameRanges, DoNotDependOnWhatADeviceBinds) {
     const MovingTriangles scene = small_scene(LightKind::spot);
-    RenderSettings settings;
-    settings.width = settings.height = 16;
-    settings.spp = 1;
-    settings.shadow_res = 2000;
-    settings.keep_ranges = true;
+    RenderSettings settings = many_ranges();
     setenv("GNOMON_LIMITS", "storage_range=8388608", 1);
     Renderer limited("", true);
     unsetenv("GNOMON_LIMITS");

@@ -13,6 +13,7 @@
 #include "bench_report.hpp"
 #include "commit.hpp"
 #include "io/atomic_file.hpp"
+#include "text/percent_decoded.hpp"
 #include "timing/machine.hpp"
 
 namespace gnomon::cli {
@@ -35,18 +36,6 @@ void copy_into(const fs::path& from, const fs::path& to) {
     if (error) fail("cannot copy " + from.string(), to, error);
 }
 
-/// "%20" is a space.
-std::string from_uri(const std::string& uri) {
-    std::string text;
-    for (size_t i = 0; i < uri.size(); ++i) {
-        const bool coded =
-            uri[i] == '%' && i + 2 < uri.size() && std::isxdigit(uri[i + 1]) != 0 && std::isxdigit(uri[i + 2]) != 0;
-        text += coded ? static_cast<char>(std::stoi(uri.substr(i + 1, 2), nullptr, 16)) : uri[i];
-        if (coded) i += 2;
-    }
-    return text;
-}
-
 /// The scene was loaded: what it names is inside its folder.
 void copy_scene(const fs::path& scene, const fs::path& to) {
     copy_into(scene, to / scene.filename());
@@ -57,7 +46,7 @@ void copy_scene(const fs::path& scene, const fs::path& to) {
         if (!json.contains(part)) continue;
         for (const nlohmann::json& element : json[part]) {
             const std::string uri = element.value("uri", "data:");
-            const fs::path name = from_uri(uri);
+            const fs::path name = percent_decoded(uri).value_or(uri);
             if (!uri.starts_with("data:") && !fs::exists(to / name)) copy_into(scene.parent_path() / name, to / name);
         }
     }

@@ -13,8 +13,8 @@ std::map<std::string, double> counts_of(const FrameStats& stats);
 /// A map of `width` texels a row, brought down to TexelGrid::kMost of them by adding up squares.
 TexelGrid texel_grid(const std::vector<uint32_t>& ranges, uint32_t width);
 
-/// Fill counts, lengths and, if asked for, texels. stats: of a timed frame; where counting takes away what was timed, as pages
-/// do that are asked for, that stays as it was. Errors: as of Renderer::render.
+/// Fill counts, lengths and, if asked for, texels. timed: one of the frames that were; where counting takes away what was
+/// timed, as pages do that are asked for, that stays as it was. Errors: as of Renderer::render.
 void count_case(Renderer& renderer, const LoadedScene& scene, const std::vector<Pose>& poses, const RenderSettings& settings,
                 const Frame& timed, bool texels, BenchCase& counted);
 

@@ -2,20 +2,9 @@
 #include <spdlog/fmt/fmt.h>
 
 #include "bench_report.hpp"
+#include "text/csv_field.hpp"
 
 namespace gnomon::cli {
-
-namespace {
-
-// As RFC 4180 has it.
-std::string field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
-}
-
-}  // namespace
 
 std::string bench_csv(const BenchResults& results) {
     std::string text = "scene,layout,again";
@@ -23,13 +12,13 @@ std::string bench_csv(const BenchResults& results) {
     text += ",metric,repetition,milliseconds\n";
     for (const BenchGroup& group : results.groups) {
         std::string axes;
-        for (const auto& [name, value] : group.axes) axes += "," + field(value);
+        for (const auto& [name, value] : group.axes) axes += "," + csv_field(value);
         for (const BenchCase& measured : group.cases) {
             for (const std::string& metric : bench_metrics()) {
                 const auto found = measured.samples.find(metric);
                 if (found == measured.samples.end()) continue;
                 for (size_t i = 0; i < found->second.size(); ++i)
-                    text += fmt::format("{},{},{}{},{},{},{}\n", field(group.scene), field(measured.layout.name),
+                    text += fmt::format("{},{},{}{},{},{},{}\n", csv_field(group.scene), csv_field(measured.layout.name),
                                         measured.layout.again ? 1 : 0, axes, metric, i, found->second[i]);
             }
         }

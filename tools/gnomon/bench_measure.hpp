@@ -24,7 +24,7 @@ struct BenchWatch {
 uint32_t frames_of(const BenchGroup& group, const BenchLimits& limits);
 
 /// Render each case once, unmeasured; then all in turn (A B C A B C ...), repetitions times, each in one frame; then count.
-/// texels: of the first case count ranges per texel too. What does not fit into memory, what method and layout refuse, and what
+/// Of the first case ranges per texel are counted too. What does not fit into memory, what method and layout refuse, and what
 /// takes too long is left out from then on, with a warning, and says why in BenchCase::skipped. All other errors are those of
 /// Renderer::render.
 void measure_group(Renderer& renderer, const BenchScene& scene, const LoadedScene& loaded, const BenchLimits& limits,

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "html/html.hpp"
+
 namespace gnomon::cli {
 namespace {
 
@@ -17,26 +19,6 @@ constexpr size_t kMostBands = 16;                                     // Above t
 // Okabe and Ito 2008, "Color universal design", without yellow and black, which are the samples'; then what is left over.
 constexpr const char* kColours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00"};
 constexpr const char* kOther = "#8a8f98";
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            default:
-                result += c;
-        }
-    }
-    return result;
-}
 
 /// 1, 2 or 5 times a power of ten: some five steps to the length.
 double nice_step(double length) {
@@ -108,7 +90,7 @@ private:
     void frame() {
         const size_t lit = static_cast<size_t>(
             std::count_if(texel_.samples.begin(), texel_.samples.end(), [](const ProbedSample& s) { return s.lit; }));
-        add(R"(<text x="{}" y="26" class="title">{}, texel {},{}</text>)", kLeft, escaped(text_.title), texel_.texel.x,
+        add(R"(<text x="{}" y="26" class="title">{}, texel {},{}</text>)", kLeft, html::escaped(text_.title), texel_.texel.x,
             texel_.texel.y);
         add(R"(<text x="{}" y="46" class="note">{} ranges of {} triangles; {} samples ask, {} lit and {} dark</text>)", kLeft,
             texel_.ranges.size(), triangles_, texel_.samples.size(), lit, texel_.samples.size() - lit);
@@ -221,7 +203,7 @@ text {{ font-family: "DejaVu Sans", Verdana, sans-serif; fill: #1d2330 }}
     }
     if (texels.empty())
         svg += fmt::format("<text x=\"{}\" y=\"60\" class=\"title\">{}: no sample of the pixel asks</text>\n", kLeft,
-                           escaped(text.title));
+                           html::escaped(text.title));
     if (more)
         svg += fmt::format("<text x=\"{}\" y=\"{}\" class=\"note\">and {} more texels</text>\n", kLeft, height - 12,
                            texels.size() - shown);

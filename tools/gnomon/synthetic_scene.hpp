@@ -28,8 +28,7 @@ std::vector<uint32_t> stack_heights(const Synthetic& synthetic, uint32_t stacks)
 /// has which height is drawn with the seed. Triangle j of a stack moves sideways, along +X, -X, +Z or -Z for j mod 4 = 0 to 3,
 /// by 1/8 m in the shutter times speed, being over its place in the middle of it. A sun shines straight down, a camera looks
 /// from above at 50 degrees. In numbers of triangles they come stack by stack, from below ("as-is"); in an order drawn with the
-/// seed
-/// ("shuffled"); or nearest the sun first ("sorted").
+/// seed ("shuffled"); or nearest the sun first ("sorted").
 Scene synthetic_scene(const Synthetic& synthetic, uint32_t seed);
 
 /// Its poses in that many segments. speed 0: it stands still.

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "html/html.hpp"
+#include "text/csv_field.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -18,13 +19,6 @@ constexpr size_t kRowsOfAPage = 40;
 std::string in_full(double value) { return fmt::format("{}", value); }
 
 std::string heading(const Column& column) { return column.unit.empty() ? column.name : column.name + ", " + column.unit; }
-
-std::string csv_field(const std::string& text) {
-    if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-    std::string quoted = "\"";
-    for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return quoted + "\"";
-}
 
 // Characters that mean something there. GitHub's Markdown reads HTML, too.
 std::string markdown_text(const std::string& text) {
