@@ -106,6 +106,33 @@ TEST_F(ExternalLayoutTest, IsReadAnewForEachFrame) {
     expect_same_frame(render(), expected);
 }
 
+TEST_F(ExternalLayoutTest, AccessesAndWalksAreChecked) {
+    settings.check_layout = true;
+    copy_layout("array");
+    EXPECT_TRUE(render().layout_faults.empty());
+    EXPECT_TRUE(render("linked").layout_faults.empty());
+
+    edit("layout.glsl", "fetch_range(it.x)", "fetch_range(it.x + 100000000u)");
+    const Frame beyond = render();
+    ASSERT_EQ(beyond.layout_faults.size(), 1u);
+    EXPECT_EQ(beyond.layout_faults[0].buffer, "ranges");
+    EXPECT_GT(beyond.layout_faults[0].count, 0u);
+    EXPECT_GE(beyond.layout_faults[0].element, 100'000'000u);
+
+    copy_layout("array");
+    edit("layout.glsl", "{ return first_ranges(list); }", "{ return first_ranges(list) + 1u; }");
+    const Frame behind = render();
+    ASSERT_EQ(behind.layout_faults.size(), 1u);
+    EXPECT_EQ(behind.layout_faults[0].buffer, "ranges");
+
+    copy_layout("array");
+    edit("layout.glsl", "    ++it.x;\n", "");
+    const Frame endless = render();
+    ASSERT_EQ(endless.layout_faults.size(), 1u);
+    EXPECT_EQ(endless.layout_faults[0].buffer, "");
+    EXPECT_GT(endless.layout_faults[0].count, 0u);
+}
+
 TEST_F(ExternalLayoutTest, DoesNotTakeThePlaceOfOneBuiltIn) {
     const Frame expected = render("array");
     copy_layout("array");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <gnomon/error.hpp>
+#include <iostream>
 #include <memory>
 
 #include "check_layout.hpp"
@@ -132,8 +133,10 @@ int check(const CheckOptions& options) {
     json["checks"] = io::Json::array();
     int exit_code = kDone;
     check_layout(renderer, options.layout, [&](const LayoutCheck& check) {
-        if (options.json != "-")
+        if (options.json != "-") {
             print_line(fmt::format("{:<34} {:<7} {}", check.name, check.passed ? "ok" : "failed", check.text));
+            std::cout.flush();  // The next takes seconds, and may be interrupted.
+        }
         if (!check.passed) spdlog::error("{} failed: {}", check.name, check.text);
         if (!check.passed) exit_code = kWrongResult;
         json["checks"].push_back({{"name", check.name}, {"passed", check.passed}, {"text", check.text}});

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 
+#include "text/csv_field.hpp"
 #include "text/json_bounds.hpp"
 #include "text/json_line.hpp"
+#include "text/percent_decoded.hpp"
 #include "text/printable.hpp"
 #include "text/read_text.hpp"
 #include "unit/io/test_folder.hpp"
@@ -100,6 +102,19 @@ TEST_F(ReadTextTest, RegularFilesOnly) {
     std::filesystem::resize_file(folder / "a", (uint64_t{64} << 20) + 1);
     EXPECT_EQ(read_text(folder / "a", reason), std::nullopt);
     EXPECT_THAT(reason, HasSubstr("more than 64 MiB"));
+}
+
+TEST(PercentDecoded, TwoHexadecimalDigits) {
+    EXPECT_EQ(percent_decoded("a%20b%2F%c3%BC+"), "a b/\u00fc+");
+    EXPECT_EQ(percent_decoded(""), "");
+    for (const char* text : {"%", "a%2", "%g0", "%0g", "%%20"}) EXPECT_EQ(percent_decoded(text), std::nullopt) << text;
+}
+
+TEST(CsvField, WithinQuotesWhereItNeedsThem) {
+    EXPECT_EQ(csv_field("two words; and more"), "two words; and more");
+    EXPECT_EQ(csv_field("a,b"), "\"a,b\"");
+    EXPECT_EQ(csv_field("a \"b\""), "\"a \"\"b\"\"\"");
+    EXPECT_EQ(csv_field("a\nb"), "\"a\nb\"");
 }
 
 }  // namespace gnomon::test
