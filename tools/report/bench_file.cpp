@@ -161,7 +161,7 @@ Case case_of(const Part& part, const std::vector<Axis>& axes) {
 Verdict verdict_of(const Part& part) {
     const std::string text = part.text();
     for (const Verdict verdict : {Verdict::faster, Verdict::slower, Verdict::same, Verdict::undecided})
-        if (text == to_text(verdict)) return verdict;
+        if (text == to_string(verdict)) return verdict;
     part.fail(fmt::format("is \"{}\", not faster, slower, same or undecided", text));
 }
 
@@ -210,11 +210,6 @@ void read_context(const Part& context, BenchFile& file) {
 }
 
 }  // namespace
-
-const char* to_text(Verdict verdict) {
-    const char* names[] = {"faster", "slower", "same", "undecided"};
-    return names[static_cast<size_t>(verdict)];
-}
 
 std::optional<double> Case::count(const std::string& of) const {
     const auto found = std::find_if(counts.begin(), counts.end(), [&](const auto& pair) { return pair.first == of; });

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "timing/comparison.hpp"
+
 namespace gnomon::report {
 
 /// Milliseconds over the repetitions.
@@ -54,6 +56,7 @@ struct Case {
     std::optional<bool> same_picture;                    ///< As the baseline's, bit for bit. None: not compared.
     std::optional<double> copy_ms;                       ///< To copy as many bytes as the map has.
 
+    std::string row_name() const { return again ? layout + ", again" : layout; }
     std::optional<double> count(const std::string& of) const;
     const Times* stage(const std::string& of) const;  ///< nullptr: not measured.
 };
@@ -63,8 +66,7 @@ struct Axis {
     std::vector<std::string> values;
 };
 
-enum class Verdict { faster, slower, same, undecided };
-const char* to_text(Verdict verdict);
+using timing::Verdict;
 
 /// The times of a stage over those of the baseline.
 struct Comparison {

@@ -17,9 +17,7 @@ namespace {
 using namespace html;
 
 constexpr double kWidth = 480.0, kTop = 10.0, kRow = 24.0, kBottom = 50.0, kValues = 118.0, kMostName = 150.0;
-constexpr double kSame = 0.02;  // Within this of 1 is "same".
-
-std::string name_of(const Case& c) { return c.again ? c.layout + ", again" : c.layout; }
+using timing::kSame;
 
 // Blue and orange, which all tell apart; what is undecided is open.
 std::string mark(const Comparison& c, const Scale& x, double y) {
@@ -56,17 +54,17 @@ std::string caption_of(const BenchFile& file, const std::vector<const Comparison
 }
 
 Plot ratio_plot(const BenchFile& file, const std::vector<const Comparison*>& rows, const std::string& title) {
-    double least = 1.0 - kSame, most = 1.0 + kSame, names = 0.0;
+    double least = kSame.low, most = kSame.high, names = 0.0;
     for (const Comparison* c : rows) {
         for (const double value : {c->ratio, c->low.value_or(c->ratio), c->high.value_or(c->ratio)}) {
             if (value > 0.0) least = std::min(least, value);
             most = std::max(most, value);
         }
-        names = std::max(names, text_width(name_of(file.cases[c->of])));
+        names = std::max(names, text_width(file.cases[c->of].row_name()));
     }
     const double left = std::min(names, kMostName) + 16.0, bottom = kTop + kRow * static_cast<double>(rows.size());
     const Scale x = Scale::logarithmic(least, most, left, kWidth - kValues);
-    std::string content = rectangle("zone", x.at(1.0 - kSame), kTop, x.at(1.0 + kSame) - x.at(1.0 - kSame), bottom - kTop, "");
+    std::string content = rectangle("zone", x.at(kSame.low), kTop, x.at(kSame.high) - x.at(kSame.low), bottom - kTop, "");
     for (const double tick : x.ticks()) {
         content += line("grid", x.at(tick), kTop, x.at(tick), bottom);
         content += label("tick below", x.at(tick), bottom + 18.0, tick_text(tick));
@@ -77,9 +75,9 @@ Plot ratio_plot(const BenchFile& file, const std::vector<const Comparison*>& row
     for (size_t i = 0; i < rows.size(); ++i) {
         const Comparison& c = *rows[i];
         const double y = kTop + kRow * (static_cast<double>(i) + 0.5);
-        content += label("name left", left - 8.0, y + 4.0, shortened(name_of(file.cases[c.of]), kMostName));
+        content += label("name left", left - 8.0, y + 4.0, shortened(file.cases[c.of].row_name(), kMostName));
         content += mark(c, x, y);
-        content += label("value", kWidth - kValues + 10.0, y + 4.0, fmt::format("{:.3f} {}", c.ratio, to_text(c.verdict)));
+        content += label("value", kWidth - kValues + 10.0, y + 4.0, fmt::format("{:.3f} {}", c.ratio, to_string(c.verdict)));
     }
     return {"ratios", title, kWidth, bottom + kBottom, content};
 }

@@ -34,10 +34,8 @@ std::vector<Stage> stages_of(const BenchFile& file) {
 double sum_of(const html::Bar& bar) { return std::accumulate(bar.parts.begin(), bar.parts.end(), 0.0); }
 
 html::Bar bar_of(const Case& c, const std::vector<Stage>& stages) {
-    html::Bar bar{.name = c.again ? c.layout + ", again" : c.layout,
-                  .parts = {},
-                  .value = {},
-                  .floor = c.copy_ms && *c.copy_ms > 0.0 ? c.copy_ms : std::nullopt};
+    html::Bar bar{
+        .name = c.row_name(), .parts = {}, .value = {}, .floor = c.copy_ms && *c.copy_ms > 0.0 ? c.copy_ms : std::nullopt};
     for (const Stage& stage : stages) {
         const Times* times = c.stage(stage.name);
         bar.parts.push_back(times != nullptr ? times->median : 0.0);

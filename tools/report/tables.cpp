@@ -36,7 +36,7 @@ public:
     }
 
     Row cells(const BenchFile& file, const Case& c) const {
-        Row row = {Cell(c.again ? c.layout + ", again" : c.layout)};
+        Row row = {Cell(c.row_name())};
         if (several_) row.emplace_back(file.label);
         row.emplace_back(c.scene);
         for (const std::string& name : axes_) {
@@ -62,8 +62,8 @@ std::optional<double> median_of(const Case& c, const std::string& stage) {
 }
 
 Cell verdict_cell(Verdict verdict) {
-    Cell cell(to_text(verdict));
-    cell.kind = std::string("verdict ") + to_text(verdict);
+    Cell cell(to_string(verdict));
+    cell.kind = "verdict " + to_string(verdict);
     return cell;
 }
 
@@ -123,7 +123,7 @@ DataTable summary_table(const std::vector<BenchFile>& files) {
         std::map<std::string, std::map<std::string, Ratios>> ratios;
         for (const Comparison& c : file.comparisons) {
             const Case& of = file.cases[c.of];
-            const std::string name = of.again ? of.layout + ", again" : of.layout;
+            const std::string name = of.row_name();
             if (!ratios.contains(name)) order.push_back(name);
             ratios[name][c.stage].add(c);
         }
