@@ -10,9 +10,13 @@ List list_of(ShadowTest test) {
 }
 
 // At its start, or where the dispatch before left it.
-Iterator walk_from(uint i, List list, Query query) {
-    Iterator it = layout_begin(list, query);
-    if (kResume && params.part > 0u && i < hit_count()) it = iterators[i];
+Iterator walk_from(uint i, ShadowTest test, Query query) {
+    bool first = !kResume || params.part == 0u;
+    note_hit(i, test.here && first);
+    note_query();
+    Iterator it = layout_begin(list_of(test), query);
+    if (!first && i < hit_count()) it = iterators[i];
+    note_hit(i, test.here);
     return it;
 }
 

@@ -63,3 +63,22 @@ Iterator checked_begin(List list, Query query) {
 #define layout_more checked_more
 #define layout_begin checked_begin
 #endif
+
+#ifdef LAYOUT_TRACED
+void note_hit(uint i, bool here) {
+    reading_hit = i;
+    read_is_kept = here && (i / kReadGroup) * 0x9e3779b1u <= reads_head.below;
+}
+void note_query() { note_read(kQueryBegins, 0u); }
+void note_round() { read_when = (read_when & 0xffff0000u) + 0x10000u; }
+Range noted_next(inout Iterator it, Query query) {
+    ++read_when;
+    note_read(kTurnBegins, 0u);
+    return layout_next(it, query);
+}
+#define layout_next noted_next
+#else
+#define note_hit(i, here)
+#define note_query()
+#define note_round()
+#endif

@@ -56,12 +56,13 @@ void main() {
     uint visited = 0u;
     uint tested = 0u;
     Query query = Query(t, limit, false);
-    Iterator it = walk_from(i, list_of(test), query);
+    Iterator it = walk_from(i, test, query);
     // Collect candidates, then test them: two short loops instead of a loop in a loop, whose entry costs lavapipe more than a range. What is read behind a loop that
     // invocations leave at different times must be the loop's own state, tested at its top: lavapipe gives values made in the body those of the last iteration of any.
     uint steps = 0u;
     bool more = test.here && !shadowed && layout_more(it);
     while (more && !shadowed) {
+        note_round();
         Candidates candidates = no_candidates();
         while (more && candidates.count < kMostCandidates) {
             Range range = layout_next(it, query);

@@ -175,6 +175,23 @@ struct ReadListsParams {
     uint part;  // How many times kListChunk ranges of each list were walked before.
 };
 
+// What shadow tests read of a layout, of some groups of kReadGroup hits that follow each other in the queue: a record of each
+// query, each turn of its walk and each read.
+const uint kReadGroup = 32u;
+const uint kQueryBegins = 0xffffffffu;
+const uint kTurnBegins = 0xfffffffeu;
+struct LayoutRead {
+    uint hit;   // Of the queue.
+    uint when;  // Hits of a group read at one time what they read at the same: a round of the test << 16, and of its turns.
+    uint what;  // A buffer of the layout; behind these, a size; or what begins.
+    uint element;
+};
+struct ReadsHead {
+    uint count;  // Of records; more than `most` were not kept.
+    uint most;
+    uint below;  // Of groups those whose hash is at most this.
+};
+
 // A range of an S-buffer as sbuffer/read gives it. Times are of the shutter. Depths are as the raster stage writes them: with
 // one at the exit, metres along the view's axis; else the view's depth (math/cover.h).
 struct ListRange {

@@ -7,6 +7,7 @@
 #include <gnomon/scene.hpp>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,6 +51,9 @@ struct RenderSettings {
     bool check_layout = false;       ///< What a layout does not initialise holds 0xcdcdcdcd, so that it shows, and its accesses
                                      ///< are checked: fill Frame::layout_faults.
     bool count_ranges = false;       ///< Count the ranges that the shadow tests look at and test; costs some percent.
+    /// Fill Frame::layout_accesses: reads of one in so many groups of shadow tests, 1: of all; 0: count nothing. The frame
+    /// takes many times as long. Not together with check_layout.
+    uint32_t count_accesses = 0;
 };
 
 /// What one camera sample found. Index (y * width + x) * spp + s in Frame::samples.
@@ -89,6 +93,30 @@ struct LayoutFault {
     std::string buffer;    ///< Was accessed beyond its end; empty: walks of lists went on without an end.
     uint64_t count = 0;    ///< How often.
     uint64_t element = 0;  ///< The index that was used, once; of walks the list.
+};
+
+/// What a frame accesses of its layout, seen with RenderSettings::count_accesses. A group are 32 hits that follow each other in
+/// the queue of the shadow tests: what a device with subgroups of 32 tests together, and that walks in step. What is counted
+/// does not depend on the subgroups of the device that it is counted on.
+struct LayoutAccesses {
+    uint64_t groups = 0;           ///< Of the sample; those with a query.
+    uint64_t queries = 0;          ///< Hits in the light's view: their lists are asked for what may shadow them.
+    uint64_t reads = 0;            ///< Of an element each.
+    uint64_t bytes = 0;            ///< Of these elements.
+    uint64_t distinct_bytes = 0;   ///< Each byte once in a group; sectors and lines likewise.
+    uint64_t sectors = 0;          ///< Of 32 bytes.
+    uint64_t lines = 0;            ///< Of 128 bytes.
+    uint64_t requests = 0;         ///< Reads of the same buffer that a group makes at one time are one.
+    uint64_t request_sectors = 0;  ///< Distinct ones of each request.
+    uint64_t turns = 0;            ///< Of walks, which a group makes together.
+    uint64_t visits = 0;           ///< Elements that the queries' walks gave, at most 32 a turn.
+    uint64_t most_reads = 0;       ///< By one query.
+    bool complete = true;          ///< There was room for all records of the sample. Else what is above is of no use.
+
+    uint64_t atomics = 0;       ///< By which the S-buffers were filled.
+    uint64_t most_atomics = 0;  ///< On one address, in a band of a light's view.
+    uint64_t held_bytes = 0;    ///< Of all bands, the layout's buffers.
+    uint64_t used_bytes = 0;    ///< Of these: words that differ from what they were filled with before.
 };
 
 struct Channel {
@@ -136,7 +164,8 @@ struct Frame {
     /// How many lists (of a texel in a cell of time) of all lights have so many ranges, by that number; empty for methods
     /// without ranges, and where pages were made that hits asked for.
     std::vector<uint64_t> list_lengths;
-    std::vector<LayoutFault> layout_faults;        ///< By buffer of the manifest.
+    std::vector<LayoutFault> layout_faults;         ///< By buffer of the manifest.
+    std::optional<LayoutAccesses> layout_accesses;  ///< None of methods without an S-buffer.
     std::map<std::string, std::string> effective;  ///< What was really used: method, raster, layout, camera_cells, light_cells.
     FrameStats stats;
 

@@ -239,7 +239,7 @@ void check_resources(const std::vector<uint32_t>& words, const std::string& stag
         throw Error(ErrorKind::input, std::string("not what a layout may declare: ") + error.what(), where, kHint);
     }
     check_code(code, layout);
-    expected.insert({"LayoutCounters", "LayoutFaults"});
+    expected.insert({"LayoutCounters", "LayoutFaults", "LayoutReads", "LayoutAtomics"});
     for (const LayoutSize& size : layout.sizes) expected.insert(read_name(size));
     for (const LayoutBuffer& buffer : layout.buffers) expected.insert({buffer.name, written_name(buffer)});
     for (const gpu::Resource& resource : code.resources) {

@@ -55,6 +55,32 @@ uint checked_place(uint number, uint place, uint count, uint i) {
 #endif
 )";
 
+// What counts accesses. Hits of a group are those that a device with subgroups of 32 tests in one.
+constexpr const char* kCounts = R"(#ifdef LAYOUT_READ
+#define LAYOUT_TRACED
+layout(binding = 18, scalar) buffer LayoutReads { ReadsHead reads_head; LayoutRead layout_reads[]; };
+bool read_is_kept = false;
+uint reading_hit = 0u, read_when = 0u;
+void note_read(uint what, uint i) {
+    if (read_is_kept) {
+        uint at = atomicAdd(reads_head.count, 1u);
+        if (at < reads_head.most) layout_reads[at] = LayoutRead(reading_hit, read_when, what, i);
+    }
+}
+#endif
+#ifdef LAYOUT_WRITE
+layout(binding = 19, scalar) buffer LayoutAtomics { uint layout_atomics[]; };  // Where each one's counts begin, then these: of each element.
+void count_atomic(uint number, uint i) { atomicAdd(layout_atomics[layout_atomics[number] + i], 1u); }
+#endif
+)";
+
+// What is read through fetch_@ is noted.
+std::string noted(size_t number, const std::string& type, const std::string& name) {
+    return named("#ifdef LAYOUT_TRACED\n" + type + " noted_@(uint i) {\n    note_read(" + std::to_string(number) +
+                     "u, i);\n    return fetch_@(i);\n}\n#define fetch_@(i) noted_@(i)\n#endif\n",
+                 name);
+}
+
 // The place of element i, if it is one of so many; else the first.
 std::string checked_place(size_t number, const std::string& place, const std::string& count) {
     return "checked_place(" + std::to_string(number) + "u, " + place + ", " + count + ", i)";
@@ -64,15 +90,17 @@ std::string write_accessors(const Layout& layout, size_t number, uint32_t bindin
     const LayoutBuffer& buffer = layout.buffers[number];
     const std::string relative = "i - " + first_bound(buffer), type = buffer.type;
     const std::string checked = checked_place(number, relative, "uint(@_elements.length())");
-    const std::string place = "@_elements[" + (layout.checked ? checked : relative) + "]";
+    const std::string place = "@_elements[" + (layout.watch == Layout::Watch::faults ? checked : relative) + "]";
+    const std::string counted =
+        layout.watch == Layout::Watch::accesses ? "count_atomic(" + std::to_string(number) + "u, i); " : "";
     std::string text = "layout(binding = " + std::to_string(binding) + ", scalar) buffer " + written_name(buffer) + " { " +
                        type + " @_elements[]; };\n" + type + " fetch_@(uint i) { return " + place + "; }\n" +
                        "void set_@(uint i, " + type + " value) { " + place + " = value; }\n";
     if (type == "uint") {
         for (const char* operation : kAtomics)
-            text += "uint " + atomic_name(operation) + "(uint i, uint value) { return atomic" + operation + "(" + place +
-                    ", value); }\n";
-        text += "uint compare_exchange_@(uint i, uint expected, uint value) { return atomicCompSwap(" + place +
+            text += "uint " + atomic_name(operation) + "(uint i, uint value) { " + counted + "return atomic" + operation + "(" +
+                    place + ", value); }\n";
+        text += "uint compare_exchange_@(uint i, uint expected, uint value) { " + counted + "return atomicCompSwap(" + place +
                 ", expected, value); }\n";
     }
     return text;
@@ -96,7 +124,8 @@ std::string no_writes(const LayoutBuffer& buffer) {
 std::string read_accessors(const Layout& layout, size_t number, uint32_t binding) {
     const std::string& type = layout.buffers[number].type;
     const std::string text = reads(binding, type, "@");
-    if (!layout.checked) return text;
+    if (layout.watch == Layout::Watch::accesses) return text + noted(number, type, "@");
+    if (layout.watch == Layout::Watch::nothing) return text;
     return text + type + " checked_fetch_@(uint i) { return fetch_@(" + checked_place(number, "i", "READ_COUNT(@)") +
            "); }\n#define fetch_@(i) checked_fetch_@(i)\n";
 }
@@ -112,10 +141,14 @@ std::string buffer_text(const Layout& layout, size_t number, uint32_t binding) {
                  buffer.name);
 }
 
-std::string size_text(const LayoutSize& size, size_t index, uint32_t binding) {
+std::string size_text(const Layout& layout, size_t index, uint32_t binding) {
+    const LayoutSize& size = layout.sizes[index];
+    const bool counts = layout.watch == Layout::Watch::accesses;
+    const size_t number = layout.buffers.size() + index;
     const bool of_tiles = size.per == LayoutSize::Per::tile;
     const std::string of = of_tiles ? "Tile of" : "List of";
-    const std::string read = "#if defined(LAYOUT_WRITE) || defined(LAYOUT_READ)\n" + reads(binding, "uint", read_name(size));
+    const std::string read = "#if defined(LAYOUT_WRITE) || defined(LAYOUT_READ)\n" + reads(binding, "uint", read_name(size)) +
+                             (counts ? noted(number, "uint", read_name(size)) : "");
     const std::string nothing = "#else\n";
     switch (size.as) {
         case LayoutSize::As::values:
@@ -129,7 +162,8 @@ std::string size_text(const LayoutSize& size, size_t index, uint32_t binding) {
                          size.name);
         case LayoutSize::As::allocated: {
             const std::string counter = "layout_counters[" + std::to_string(index) + "]";
-            return named("#ifdef LAYOUT_WRITE\nuint allocate_@(uint n) { return atomicAdd(" + counter +
+            const std::string counted = counts ? "count_atomic(" + std::to_string(number) + "u, 0u); " : "";
+            return named("#ifdef LAYOUT_WRITE\nuint allocate_@(uint n) { " + counted + "return atomicAdd(" + counter +
                              ", n); }\n#else\n#define allocate_@(n) 0u\n#endif\n",
                          size.name);
         }
@@ -166,20 +200,25 @@ std::string layout_interface(const Layout& layout) {
     text += "#ifdef LAYOUT_WRITE\n// What one dispatch writes is a part of the band.\n";
     text += "uint part_first_tile() { return params.item_first - params.band_first; }\n#endif\n";
     if (layout.keeps_counts()) text += "#define LAYOUT_COUNTS\n";
-    if (layout.checked) text += kChecks + ("const uint kWalks = " + std::to_string(layout.buffers.size()) + "u;\n");
+    if (layout.watch == Layout::Watch::faults)
+        text += kChecks + ("const uint kWalks = " + std::to_string(layout.buffers.size()) + "u;\n");
+    if (layout.watch == Layout::Watch::accesses) text += kCounts;
     text += of_tiles("LAYOUT_PREPARES_TILES", layout.prepare) + of_tiles("LAYOUT_FINISHES_TILES", layout.finish);
     if (layout.morton) text += "#define LAYOUT_MORTON\n";
     for (const auto& [name, value] : layout.constants) text += "const uint " + name + " = " + std::to_string(value) + "u;\n";
     if (layout.counts_up())
         text +=
             "#ifdef LAYOUT_WRITE\nlayout(binding = 17, scalar) buffer LayoutCounters { uint layout_counters[]; };\n#endif\n";
-    for (size_t i = 0; i < layout.sizes.size(); ++i)
-        text += size_text(layout.sizes[i], i, kSizesBinding + static_cast<uint32_t>(i));
+    for (size_t i = 0; i < layout.sizes.size(); ++i) text += size_text(layout, i, kSizesBinding + static_cast<uint32_t>(i));
     for (size_t i = 0; i < layout.counters.size(); ++i) {
         const std::string counter = "layout_counters[kMostSizes + " + std::to_string(i) + "u]";
-        text += named(
-            "#ifdef LAYOUT_WRITE\nvoid count_@(uint n) { atomicAdd(" + counter + ", n); }\n#else\n#define count_@(n)\n#endif\n",
-            layout.counters[i]);
+        const std::string counted =
+            layout.watch == Layout::Watch::accesses
+                ? "count_atomic(" + std::to_string(layout.buffers.size() + layout.sizes.size() + i) + "u, 0u); "
+                : "";
+        text += named("#ifdef LAYOUT_WRITE\nvoid count_@(uint n) { " + counted + "atomicAdd(" + counter +
+                          ", n); }\n#else\n#define count_@(n)\n#endif\n",
+                      layout.counters[i]);
     }
     for (size_t i = 0; i < layout.buffers.size(); ++i)
         text += buffer_text(layout, i, kBuffersBinding + static_cast<uint32_t>(i));

@@ -67,7 +67,8 @@ LayoutFiles layout_files(const std::string& name_or_folder) {
 
 bool is_compiled(const Layout& layout) {
     const auto named = [&](const LayoutEntry& entry) { return entry.compiled && entry.name == layout.name; };
-    return layout.folder.empty() && !layout.checked && std::any_of(std::begin(kLayoutTable), std::end(kLayoutTable), named);
+    return layout.folder.empty() && layout.watch == Layout::Watch::nothing &&
+           std::any_of(std::begin(kLayoutTable), std::end(kLayoutTable), named);
 }
 
 Layout with_ranges(Layout layout, bool exit_depth) {

@@ -291,7 +291,8 @@ bool Layout::counts_up() const {
 }
 
 std::string Layout::stage(const std::string& name_without) const {
-    return name_without + "@" + (folder.empty() ? name : folder.string()) + (checked ? " checked" : "");
+    constexpr const char* kWatched[] = {"", " checked", " counted"};
+    return name_without + "@" + (folder.empty() ? name : folder.string()) + kWatched[static_cast<size_t>(watch)];
 }
 
 Layout parse_layout(std::string_view text, const std::string& where) {

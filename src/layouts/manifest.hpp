@@ -75,7 +75,9 @@ struct Layout {
     std::filesystem::path folder;  ///< Absolute; empty: built in.
     bool exit_depth = false;       ///< Its ranges have a depth at their exit: the method's wish, not the manifest's.
 
-    bool checked = false;  ///< A check's wish: what it does not initialise holds kPoison, and accesses are checked.
+    /// What is watched while it is used, as somebody wishes: faults, or what is accessed. What it does not initialise then
+    /// holds kPoison.
+    enum class Watch { nothing, faults, accesses } watch = Watch::nothing;
 
     /// The name among the programs of a stage compiled for this layout.
     std::string stage(const std::string& name_without) const;

@@ -28,6 +28,7 @@ struct Parameter {
     bool whole = false;  ///< Only whole numbers.
 };
 
+class LayoutWatch;
 struct Method;
 
 /// A face of a light of a frame, for its shadow map to be made.
@@ -43,9 +44,9 @@ struct LightContext {
     uint64_t bytes = 0;  ///< Its share of the memory budget.
     Layout layout;       ///< Of the S-buffer, where the method has one; likewise the stage that finds its ranges.
     std::string raster;
-    const gpu::Buffer* layout_faults = nullptr;  ///< Of a layout that is checked (SBuffer).
-    const View* camera = nullptr;                ///< The camera's view.
-    const Pages* asked = nullptr;                ///< The pages of the S-buffer, where not all are made.
+    LayoutWatch* watch = nullptr;  ///< Of a layout that is watched.
+    const View* camera = nullptr;  ///< The camera's view.
+    const Pages* asked = nullptr;  ///< The pages of the S-buffer, where not all are made.
 
     std::optional<double> parameter(const std::string& name) const;
 };

@@ -24,7 +24,7 @@ SBuffer s_buffer_of(const LightContext& light, const Bins& bins, const gpu::Buff
     }
     if (light.raster != "prism") {
         return {light.device, light.programs, walk_bins(light.programs, source, shader, orthographic), light.layout,
-                light.layout_faults};
+                light.watch};
     }
     // A quarter for the fragments: what the ranges take is bounded on its own, by the bands that are filled.
     constexpr uint64_t kShare = 4;
@@ -32,7 +32,7 @@ SBuffer s_buffer_of(const LightContext& light, const Bins& bins, const gpu::Buff
         return {light.device, light.programs,
                 pair_fragments(light.device, light.programs, source, shader, {orthographic, culls_back_faces(light), coverage},
                                light.bytes / kShare),
-                light.layout, light.layout_faults};
+                light.layout, light.watch};
     } catch (const BandTooLarge& error) {
         throw BandTooLarge(error, kShare);
     }

@@ -65,14 +65,12 @@ void list_window(gpu::Device& device, Programs& programs, const Geometry& geomet
     }
 }
 
-std::vector<LayoutFault> read_faults(gpu::Device& device, const gpu::Buffer& faults, const Layout& layout) {
-    std::vector<LayoutFault> result;
-    const size_t count = layout.buffers.size();
-    const std::vector<glm::uvec2> found = gpu::download_vector<glm::uvec2>(device, faults, count + 1);
-    for (size_t i = 0; i <= count; ++i) {
-        if (found[i].x > 0) result.push_back({i < count ? layout.buffers[i].name : "", found[i].x, found[i].y});
-    }
-    return result;
+Layout::Watch watched(const RenderSettings& settings) {
+    if (settings.check_layout && settings.count_accesses > 0)
+        throw Error(ErrorKind::usage, "a layout's accesses are either checked or counted", "count_accesses",
+                    "ask for one of them");
+    if (settings.check_layout) return Layout::Watch::faults;
+    return settings.count_accesses > 0 ? Layout::Watch::accesses : Layout::Watch::nothing;
 }
 
 void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std::shared_ptr<const SceneData> loaded,
@@ -83,7 +81,7 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     check_cells(method, settings.light_cells, static_cast<uint32_t>(poses.size()) - 1);
     const std::string raster = choose_raster(method, settings.raster);
     Layout layout = with_ranges(find_layout(settings.layout == "auto" ? method.layout : settings.layout), method.exit_depth);
-    layout.checked = settings.check_layout && method.has_s_buffer();
+    if (method.has_s_buffer()) layout.watch = watched(settings);
     if (method.has_s_buffer()) {
         if (!method.takes(layout)) {
             throw Error(
@@ -148,6 +146,9 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     const std::string pages = !method.has_s_buffer() ? "" : keeps_ranges(settings) ? "all" : settings.pages;
     const uint64_t most_slots =
         batch_slots(device, view, settings.spp, lit_planes(frame.light_count, method.fractional), pages == "asked", room / 4);
+    const std::unique_ptr<LayoutWatch> watch = layout.watch == Layout::Watch::nothing
+                                                   ? nullptr
+                                                   : std::make_unique<LayoutWatch>(device, layout, settings.count_accesses);
     Sampler sampler(device, programs, geometry, view, bins, lights,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,
@@ -158,12 +159,10 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
                      .shells = method.one_sided,
                      .one_sided = closed_triangles > 0,
                      .keep_depths = settings.keep_samples,
-                     .count_ranges = settings.count_ranges});
-    const gpu::Buffer faults =
-        layout.checked ? gpu::upload_new(device, "layout_faults", std::vector<glm::uvec2>(layout.buffers.size() + 1))
-                       : gpu::Buffer();
-    Lights shadows({device, programs, geometry, settings, method, layout, raster, faults ? &faults : nullptr, view, sampler,
-                    room, still, pages, one_sided},
+                     .count_ranges = settings.count_ranges,
+                     .watch = watch.get()});
+    Lights shadows({device, programs, geometry, settings, method, layout, raster, watch.get(), view, sampler, room, still,
+                    pages, one_sided},
                    scene, poses, bounds);
     std::vector<Window> windows = windows_of(view, film_tiles(device, shared::film_planes(frame.light_count), left() / 4));
     const uint64_t camera_bytes = left() / 2;
@@ -195,8 +194,14 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
         }
         read_film(device, sampler.resolve(), frame, rect_of(view, windows[w]));
     }
-    if (reads_lists(settings)) shadows.read_ranges(frame);
-    frame.layout_faults = faults ? read_faults(device, faults, layout) : std::vector<LayoutFault>();
+    const auto found_faults = [&] { return watch ? watch->faults() : std::vector<LayoutFault>(); };
+    frame.layout_faults = found_faults();
+    frame.layout_accesses = watch ? watch->accesses() : std::nullopt;
+    if (reads_lists(settings) &&
+        frame.layout_faults.empty()) {  // What a layout gives whose walks do not end is nothing to keep.
+        shadows.read_ranges(frame);
+        frame.layout_faults = found_faults();
+    }
 
     const uint64_t hits = sampler.hit_count();
     const uint64_t tests = settings.count_ranges ? sampler.test_count() : 0;  // The last work before the statistics.

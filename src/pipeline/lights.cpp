@@ -70,7 +70,7 @@ Lights::Lights(Shared shared, const Scene& scene, const std::vector<Pose>& poses
     for (Face& face : faces_) {
         contexts_.push_back({shared_.device, shared_.programs, shared_.geometry, shared_.settings, shared_.method,
                              face.side.view, face.side.light_ix, shared_.still, 0, shared_.layout, shared_.raster,
-                             shared_.layout_faults, &shared_.camera});
+                             shared_.watch, &shared_.camera});
         const uint64_t all = uint64_t(tiles_across(face.side.view)) * tiles_down(face.side.view);
         face.windows = windows_of(face.side.view, shared_.method.windowed ? most_tiles(contexts_.size() - 1) : all);
     }
@@ -230,6 +230,7 @@ void Lights::project(size_t face) {
         side.bins =
             project_prisms(shared_.device, shared_.programs, shared_.geometry, side.view, cells(face), faces_[face].part);
     } while (fit(face));
+    side.bins.in_order = shared_.settings.count_ranges || shared_.settings.count_accesses > 0;
 }
 
 bool Lights::fit(size_t face) {

@@ -21,7 +21,7 @@ public:
         const Method& method;
         Layout layout;
         std::string raster;
-        const gpu::Buffer* layout_faults;  ///< As LightContext's.
+        LayoutWatch* watch;  ///< As LightContext's.
         const View& camera;
         Sampler& sampler;
         uint64_t room = 0;     ///< Bytes of the budget that were shared out.

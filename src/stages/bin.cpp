@@ -286,6 +286,17 @@ void Binning::fill() {
     bins_.facing_first = listing_ == Listing::facing_first && bins_.entry_count >= uint64_t(bins_.item_count()) * kLongList;
     bins_.entries = device_.allocate("bin_entries", uint64_t(bins_.entry_count) * 4);
     if (bins_.entry_count > 0) lister_->run(true, cursors_, bins_.entries);
+    if (bins_.in_order) put_in_order();
+}
+
+// On the host: it is for counting only.
+void Binning::put_in_order() {
+    const std::vector<uint32_t> offsets = gpu::download_vector<uint32_t>(device_, bins_.offsets, bins_.item_count() + 1);
+    std::vector<uint32_t> entries = gpu::download_vector<uint32_t>(device_, bins_.entries, bins_.entry_count);
+    for (size_t i = 0; i + 1 < offsets.size(); ++i)
+        std::sort(entries.begin() + offsets[i], entries.begin() + offsets[i + 1],
+                  [](uint32_t a, uint32_t b) { return std::rotl(a, 1) < std::rotl(b, 1); });  // kReversed last.
+    if (!entries.empty()) gpu::upload(device_, bins_.entries, std::as_bytes(std::span(entries)));
 }
 
 void list_prisms(gpu::Device& device, Programs& programs, const Geometry& geometry, const View& view, const Window& window,

@@ -38,6 +38,9 @@ struct Bins {
     uint32_t longest = 0;  ///< Entries of the longest list.
     /// Small prisms that look away from the eye come last in a list, as far as the device keeps order.
     bool facing_first = false;
+    /// Lists are put into the order of triangles, which no device keeps: of what walks them every count is then the same in
+    /// each run.
+    bool in_order = false;
 
     uint32_t tile_lists() const { return grid.cell_count + (part == Part::apart ? 1 : 0); }
     uint32_t item_count() const { return window.tile_count * tile_lists(); }
@@ -73,6 +76,8 @@ public:
     void fill();
 
 private:
+    void put_in_order();
+
     gpu::Device& device_;
     Programs& programs_;
     const View& view_;

@@ -2,6 +2,7 @@
 #include "stages/read_lists.hpp"
 
 #include <algorithm>
+#include <gnomon/error.hpp>
 #include <numeric>
 
 namespace gnomon {
@@ -10,6 +11,20 @@ namespace {
 // Of one run: of what all take together, little.
 constexpr uint32_t kMostLists = 131072;
 constexpr uint64_t kMostRanges = 262144;
+// What a wrong layout may give for each range that it was given, before it is not worth to be read.
+constexpr uint64_t kMostCopies = 4;
+
+// Of a band, so far.
+void check_total(const SBuffer& s_buffer, const Band& band, uint64_t list_first, std::span<const uint32_t> counts,
+                 uint64_t total) {
+    if (total <= kMostCopies * band.range_count + kMostRanges) return;
+    const auto longest = std::max_element(counts.begin(), counts.end());
+    const uint64_t list = list_first + static_cast<uint64_t>(longest - counts.begin());
+    throw Error(ErrorKind::internal,
+                "list " + std::to_string(list) + " gives " + std::to_string(*longest) + " ranges, and there are " +
+                    std::to_string(band.range_count) + " in all lists",
+                s_buffer.layout().name, "correct the layout, if it is yours, or report it");
+}
 
 class Reader {
 public:
@@ -63,9 +78,12 @@ void read_lists(gpu::Device& device, Programs& programs, const SBuffer& s_buffer
     Reader reader(device, programs, s_buffer, what.exits);
     const uint64_t base = uint64_t(band.item_first) * shared::kTileTexels,
                    end = uint64_t(band.item_count) * shared::kTileTexels;
+    uint64_t total = 0;
     for (uint64_t first = 0; first < end; first += kMostLists) {
         const auto count = static_cast<uint32_t>(std::min<uint64_t>(kMostLists, end - first));
         const std::vector<uint32_t> counts = reader.counts(first, count);
+        total = std::accumulate(counts.begin(), counts.end(), total);
+        check_total(s_buffer, band, base + first, counts, total);
         if (what.only_counts) {
             on_lists(base + first, counts, {});
             continue;

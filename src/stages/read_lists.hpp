@@ -23,7 +23,7 @@ struct ReadLists {
 std::string read_lists_stage(bool exits);
 
 /// Call `on_lists` with the lists of a band that is filled, in order, a run at a time. Takes some MiB of device memory, or the
-/// longest list.
+/// longest list. Errors: ErrorKind::internal, where the layout gives far more ranges than it was given.
 void read_lists(gpu::Device& device, Programs& programs, const SBuffer& s_buffer, const Band& band, const ReadLists& what,
                 const OnLists& on_lists);
 

@@ -24,13 +24,13 @@ uint64_t align_down(uint64_t value) { return value / kPlaceAlign * kPlaceAlign; 
 }  // namespace
 
 SBuffer::SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
-                 const gpu::Buffer* faults)
+                 LayoutWatch* watch)
     : device_(device),
       programs_(programs),
       raster_(std::move(raster)),
       layout_(layout),
-      unbound_(device, layout.buffers.size() + 2),
-      faults_(faults) {
+      unbound_(device, layout.buffers.size() + 3),
+      watch_(watch) {
     item_count_ = raster_->item_count();
     list_count_ = uint64_t(item_count_) * kTileTexels;
     if (list_count_ + 1 > device.limits().most_elements(4)) {
@@ -124,7 +124,10 @@ Totals SBuffer::bound_before(const Band& part) const {
 std::vector<gpu::Binding> SBuffer::write_bindings(const Band* part) const {
     std::vector<gpu::Binding> all;
     if (counters_) all.push_back({"LayoutCounters", &counters_});
-    if (faults_ != nullptr) all.push_back({"LayoutFaults", faults_});
+    if (watch_ != nullptr) {
+        for (const gpu::Binding& binding : watch_->write_bindings())
+            all.push_back(part != nullptr ? binding : unbound_.at(memory_.size() + 2, binding.name));
+    }
     for (const Sizes& s : sizes_)
         all.push_back(part != nullptr ? gpu::Binding{s.read, &s.band, Texel::r32_uint}
                                       : unbound_.at(memory_.size(), s.read, Texel::r32_uint));
@@ -379,6 +382,22 @@ void SBuffer::record_lists(const std::string& stage, Layout::Pass pass, const st
     }
 }
 
+void SBuffer::begin_watch(const Totals& held) {
+    if (watch_ == nullptr) return;
+    std::vector<uint64_t> counts;
+    for (const LayoutBuffer& buffer : layout_.buffers)
+        counts.push_back(layout_.has(buffer) ? elements_of(layout_, buffer, held) : 0);
+    counts.insert(counts.end(), layout_.sizes.size() + layout_.counters.size(), 1);
+    watch_->begin_fill(std::move(counts));
+}
+
+void SBuffer::end_watch(const Totals& held) {
+    if (watch_ == nullptr) return;
+    watch_->end_fill();
+    for (const Memory& m : memory_)
+        watch_->count_words(m.buffer, bytes_of(layout_, m.description, held), m.description.initial.value_or(kPoison));
+}
+
 void SBuffer::fill(const Band& band) {
     band_ = band;
     const Totals held = totals_of(band);
@@ -386,9 +405,10 @@ void SBuffer::fill(const Band& band) {
     record_sums(held);
     for (const Memory& m : memory_) {
         const std::optional<uint32_t>& initial = m.description.initial;
-        if (initial || layout_.checked) device_.recorder().fill("sbuffer/clear", m.buffer, initial.value_or(kPoison));
+        if (initial || watch_ != nullptr) device_.recorder().fill("sbuffer/clear", m.buffer, initial.value_or(kPoison));
     }
     if (counters_) device_.recorder().fill("sbuffer/clear", counters_, 0);
+    begin_watch(held);
     const std::vector<Band> parts = this->parts();
     record_lists("sbuffer/prepare", layout_.prepare, parts);
     for (const Band& part : parts) {
@@ -401,12 +421,13 @@ void SBuffer::fill(const Band& band) {
             cursors_ ? gpu::Binding{"ListState", &cursors_, {}, first, bytes} : unbound_.at(memory_.size() + 1, "ListState"));
     }
     record_lists("sbuffer/finish", layout_.finish, parts);
+    end_watch(held);
     if (!layout_.counters.empty()) lost_ = device_.recorder().download(counters_, shared::kMostSizes * 4, 4);
 }
 
 std::vector<gpu::Binding> SBuffer::read_bindings() const {
     std::vector<gpu::Binding> result;
-    if (faults_ != nullptr) result.push_back({"LayoutFaults", faults_});
+    if (watch_ != nullptr) result = watch_->read_bindings();
     const Totals held = totals_of(band_);
     for (const Sizes& s : sizes_) result.push_back({s.read, &s.band, Texel::r32_uint});
     for (const Memory& m : memory_) {

@@ -7,17 +7,18 @@
 #include "layouts/layout.hpp"
 #include "layouts/memory.hpp"
 #include "stages/grid.hpp"
+#include "stages/layout_watch.hpp"
 #include "stages/raster_stage.hpp"
 
 namespace gnomon {
 
 class SBuffer final : public ShadowMap {
 public:
-    /// Count the ranges of all lists. raster: compiled for the layout. faults: of a layout that is checked, a uvec2 for each of
-    /// its buffers and one more (LayoutFault); it outlives the S-buffer.
+    /// Count the ranges of all lists. raster: compiled for the layout. watch: of a layout that is watched; it outlives the
+    /// S-buffer.
     /// Errors: ErrorKind::out_of_memory, also later, when the count is known.
     SBuffer(gpu::Device& device, Programs& programs, std::unique_ptr<RasterStage> raster, const Layout& layout,
-            const gpu::Buffer* faults = nullptr);
+            LayoutWatch* watch = nullptr);
 
     uint64_t range_count() const { return counted().back().sizes[0]; }
     uint64_t list_count() const { return list_count_; }
@@ -67,6 +68,8 @@ private:
     void record_pass(bool fill, const Band& part, const gpu::Binding& list_state);
     void record_lists(const std::string& stage, Layout::Pass pass, const std::vector<Band>& parts);
     void begin_counters(const Band& part);
+    void begin_watch(const Totals& held);
+    void end_watch(const Totals& held);
     void make_source(uint32_t item);
     size_t portion_of(uint32_t item) const;
     std::vector<Band> parts() const;  ///< Of the band, that one binding can hold, each of one portion.
@@ -96,7 +99,7 @@ private:
     gpu::Buffer cursors_;   ///< Of the band's lists, while they are walked in several dispatches.
     gpu::Buffer counters_;  ///< The next place of each size that is allocated; then the layout's own counters.
     std::optional<gpu::Download> lost_;
-    const gpu::Buffer* faults_;
+    LayoutWatch* watch_;
 };
 
 }  // namespace gnomon

@@ -243,6 +243,7 @@ void Sampler::test_shadows(const LightSide& light, const Band& band, float toler
     for (params.part = 0; params.part < parts; ++params.part) {
         recorder.dispatch_indirect("sample/shadow", programs_.get(settings_.shadow_stage, constants), all, params,
                                    shadow_groups_, 0, most_groups());
+        if (settings_.watch != nullptr) settings_.watch->count_reads();
     }
     if (!settings_.count_ranges) return;
     const uint64_t blocks = groups_of(batch_.slot_count(), kCountersHits);

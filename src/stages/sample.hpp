@@ -31,12 +31,13 @@ struct SamplerSettings {
     uint32_t spp = 1;
     uint32_t seed = 0;
     uint32_t light_count = 0;
-    uint64_t most_slots = 0;    ///< Of a batch.
-    bool fractional = false;    ///< Visibility is a share, not a bit.
-    bool shells = true;         ///< The test knows closed shells.
-    bool one_sided = false;     ///< Of closed shells the lights' lists hold only what looks away from the light.
-    bool keep_depths = false;   ///< Each sample's depth, for batch_depths().
-    bool count_ranges = false;  ///< Fill shadow_counts().
+    uint64_t most_slots = 0;       ///< Of a batch.
+    bool fractional = false;       ///< Visibility is a share, not a bit.
+    bool shells = true;            ///< The test knows closed shells.
+    bool one_sided = false;        ///< Of closed shells the lights' lists hold only what looks away from the light.
+    bool keep_depths = false;      ///< Each sample's depth, for batch_depths().
+    bool count_ranges = false;     ///< Fill shadow_counts().
+    LayoutWatch* watch = nullptr;  ///< Of the layout, where it is watched.
 };
 
 /// Planes of a word per slot that say which lights reach it: bits of 32 lights, or the share of one.

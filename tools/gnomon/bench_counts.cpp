@@ -16,9 +16,6 @@ std::string without_light(const std::string& name) {
     return of_light ? name.substr(0, dot) : name;
 }
 
-// Of lights and windows the most, not the sum.
-bool is_most(const std::string& name) { return name == "longest_chain" || name == "atomics_most_on_one"; }
-
 // What the shadow tests did, of a frame that counts it.
 void add_tests(const FrameStats& stats, std::map<std::string, double>& counts) {
     const auto of = [&](const char* name) {
@@ -35,15 +32,49 @@ void add_tests(const FrameStats& stats, std::map<std::string, double>& counts) {
     }
 }
 
+// The largest sample of shadow tests whose reads can be kept; nothing, where there is no memory to count them.
+std::optional<LayoutAccesses> count_accesses(Renderer& renderer, const LoadedScene& scene, const std::vector<Pose>& poses,
+                                             RenderSettings settings, Frame& frame) {
+    constexpr uint32_t kLeast = 16, kMost = 1u << 20;
+    for (settings.count_accesses = kLeast; settings.count_accesses <= kMost; settings.count_accesses *= 4) {
+        try {
+            renderer.render(scene, poses, settings, frame);
+        } catch (const Error& error) {
+            if (error.kind() != ErrorKind::out_of_memory) throw;
+            return std::nullopt;
+        }
+        if (!frame.layout_accesses || frame.layout_accesses->complete) return frame.layout_accesses;
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::map<std::string, double> counts_of(const FrameStats& stats) {
     std::map<std::string, double> counts = {{"peak_bytes", static_cast<double>(stats.peak_bytes)}};
     for (const auto& [name, count] : stats.counts) {
-        const std::string short_name = without_light(name);
-        double& value = counts[short_name];
-        value = is_most(short_name) ? std::max(value, static_cast<double>(count)) : value + static_cast<double>(count);
+        counts[without_light(name)] += static_cast<double>(count);
     }
+    return counts;
+}
+
+std::map<std::string, double> counts_of(const LayoutAccesses& accesses) {
+    std::map<std::string, double> counts = {{"atomics", static_cast<double>(accesses.atomics)},
+                                            {"most_atomics_on_one", static_cast<double>(accesses.most_atomics)},
+                                            {"held_bytes", static_cast<double>(accesses.held_bytes)},
+                                            {"used_bytes", static_cast<double>(accesses.used_bytes)},
+                                            {"counted_groups", static_cast<double>(accesses.groups)},
+                                            {"most_reads_of_a_query", static_cast<double>(accesses.most_reads)}};
+    const auto add = [&](const char* name, uint64_t of, uint64_t all) {
+        if (all > 0) counts[name] = static_cast<double>(of) / static_cast<double>(all);
+    };
+    add("reads_per_query", accesses.reads, accesses.queries);
+    add("bytes_per_query", accesses.bytes, accesses.queries);
+    add("sectors_per_query", accesses.sectors, accesses.queries);
+    add("lines_per_query", accesses.lines, accesses.queries);
+    add("sectors_per_request", accesses.request_sectors, accesses.requests);
+    add("useful_share", accesses.distinct_bytes, 32 * accesses.sectors);
+    add("lane_activity", accesses.visits, 32 * accesses.turns);
     return counts;
 }
 
@@ -80,6 +111,8 @@ void count_case(Renderer& renderer, const LoadedScene& scene, const std::vector<
         renderer.render(scene, poses, counting, frame);
     }
     counted.lengths = frame.list_lengths;
+    if (const auto accesses = count_accesses(renderer, scene, poses, settings, frame))
+        counted.counts.merge(counts_of(*accesses));
     if (!texels) return;
     counting = settings;
     counting.keep_texel_ranges = true;

@@ -10,6 +10,9 @@ namespace gnomon::cli {
 /// Counts of a frame, summed over lights; "peak_bytes".
 std::map<std::string, double> counts_of(const FrameStats& stats);
 
+/// What is counted of a layout's accesses, as means of a query, or a group, and shares.
+std::map<std::string, double> counts_of(const LayoutAccesses& accesses);
+
 /// A map of `width` texels a row, brought down to TexelGrid::kMost of them by adding up squares.
 TexelGrid texel_grid(const std::vector<uint32_t>& ranges, uint32_t width);
 

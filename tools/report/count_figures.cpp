@@ -22,11 +22,12 @@ struct Count {
     const char* meaning;
 };
 /// By what they say of memory: the first that were counted are shown.
-constexpr Count kCounts[] = {{"sectors_per_query", "sectors", "distinct 32-byte sectors of the queries of a subgroup"},
-                             {"lines_per_query", "lines", "distinct 128-byte lines of the queries of a subgroup"},
-                             {"bytes_per_query", "bytes", "bytes asked for"},
-                             {"ranges_visited_per_query", "ranges", "ranges visited"},
-                             {"triangles_tested_per_query", "tests", "triangles tested"}};
+constexpr Count kCounts[] = {
+    {"sectors_per_query", "sectors", "distinct 32-byte sectors that 32 neighbouring queries read, shared out among them"},
+    {"lines_per_query", "lines", "128-byte lines likewise"},
+    {"bytes_per_query", "bytes", "bytes that are read, each time they are"},
+    {"ranges_visited_per_query", "ranges", "ranges visited"},
+    {"triangles_tested_per_query", "tests", "triangles tested"}};
 constexpr size_t kMostColumns = 3;
 
 bool has(const std::vector<const Case*>& cases, const Count& count) {

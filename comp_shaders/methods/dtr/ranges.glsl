@@ -12,7 +12,7 @@ bool occluded_by_ranges(uint i, ShadowTest test, bool walk, inout uint visited, 
     float metres_near = kOrthographic ? params.depth_near : -1.0 / params.depth_near;
     bool occluded = known_shadowed(i, test);
     Query query = Query(t, limit, false);
-    Iterator it = walk_from(i, list_of(test), query);
+    Iterator it = walk_from(i, test, query);
     uint steps = 0u;
     bool more = test.here && walk && !occluded && layout_more(it);
     while (more) {
