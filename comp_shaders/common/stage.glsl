@@ -7,16 +7,17 @@
 // Read-only data, declared as READ_UVEC4(2, triangles) at binding 2 and read as fetch_triangles(i). A device sees it as a texel buffer, which is fast on lavapipe, or,
 // with GN_STORAGE_READS, as a storage buffer, which holds more elements on some (Limits::storage_reads).
 #ifdef GN_STORAGE_READS
-#define GN_READ(slot, sampler, type, name, parts) \
-    layout(binding = slot, scalar) readonly buffer name { type name##_elements[]; }; \
-    type fetch_##name(uint i) { return name##_elements[i]; }
+#define GN_READ_AS(slot, sampler, stored, type, name, parts) \
+    layout(binding = slot, scalar) readonly buffer name { stored name##_elements[]; }; \
+    type fetch_##name(uint i) { return type(name##_elements[i]); }
 #define READ_COUNT(name) uint(name##_elements.length())
 #else
-#define GN_READ(slot, sampler, type, name, parts) \
+#define GN_READ_AS(slot, sampler, stored, type, name, parts) \
     layout(binding = slot) uniform sampler name; \
     type fetch_##name(uint i) { return texelFetch(name, int(i)).parts; }
 #define READ_COUNT(name) uint(textureSize(name))
 #endif
+#define GN_READ(slot, sampler, type, name, parts) GN_READ_AS(slot, sampler, type, type, name, parts)
 #define READ_FLOAT(slot, name) GN_READ(slot, samplerBuffer, float, name, x)
 #define READ_VEC2(slot, name) GN_READ(slot, samplerBuffer, vec2, name, xy)
 #define READ_VEC4(slot, name) GN_READ(slot, samplerBuffer, vec4, name, xyzw)

@@ -88,6 +88,18 @@ TexelFormat texel_format(Texel texel) {
             return {VK_FORMAT_R32G32_UINT, 8, ResourceKind::uint_texels};
         case Texel::rgba32_uint:
             return {VK_FORMAT_R32G32B32A32_UINT, 16, ResourceKind::uint_texels};
+        case Texel::r16_uint:
+            return {VK_FORMAT_R16_UINT, 2, ResourceKind::uint_texels};
+        case Texel::rg16_uint:
+            return {VK_FORMAT_R16G16_UINT, 4, ResourceKind::uint_texels};
+        case Texel::rgba16_uint:
+            return {VK_FORMAT_R16G16B16A16_UINT, 8, ResourceKind::uint_texels};
+        case Texel::r8_uint:
+            return {VK_FORMAT_R8_UINT, 1, ResourceKind::uint_texels};
+        case Texel::rg8_uint:
+            return {VK_FORMAT_R8G8_UINT, 2, ResourceKind::uint_texels};
+        case Texel::rgba8_uint:
+            return {VK_FORMAT_R8G8B8A8_UINT, 4, ResourceKind::uint_texels};
     }
     return {};  // all enumerators are above
 }

@@ -16,8 +16,13 @@ VkDevice create_device(const Candidate& candidate) {
                                                 .computeFullSubgroups = VK_TRUE,
                                                 .synchronization2 = VK_TRUE,
                                                 .maintenance4 = VK_TRUE};
-    const VkPhysicalDeviceVulkan12Features features12{
-        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &features13, .scalarBlockLayout = VK_TRUE};
+    VkPhysicalDeviceVulkan11Features features11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES,
+                                                .pNext = &features13,
+                                                .storageBuffer16BitAccess = candidate.storage_16bit};
+    const VkPhysicalDeviceVulkan12Features features12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                                      .pNext = &features11,
+                                                      .storageBuffer8BitAccess = candidate.storage_8bit,
+                                                      .scalarBlockLayout = VK_TRUE};
     VkPhysicalDeviceShaderSubgroupUniformControlFlowFeaturesKHR control_flow{
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_SUBGROUP_UNIFORM_CONTROL_FLOW_FEATURES_KHR,
         .shaderSubgroupUniformControlFlow = VK_TRUE};

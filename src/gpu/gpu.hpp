@@ -19,7 +19,20 @@
 namespace gnomon::gpu {
 
 /// How a shader sees a buffer through a (uniform) texel buffer: samplerBuffer or usamplerBuffer.
-enum class Texel { r32_float, rg32_float, rgba32_float, r32_uint, rg32_uint, rgba32_uint };
+enum class Texel {
+    r32_float,
+    rg32_float,
+    rgba32_float,
+    r32_uint,
+    rg32_uint,
+    rgba32_uint,
+    r16_uint,
+    rg16_uint,
+    rgba16_uint,
+    r8_uint,
+    rg8_uint,
+    rgba8_uint,
+};
 
 /// Devices that have fewer texels in a buffer view read through storage buffers.
 constexpr uint64_t kManyTexels = uint64_t{1} << 24;
@@ -32,6 +45,8 @@ struct Limits {
     uint64_t max_texels = 0;         ///< Elements of one texel-buffer binding.
     bool texel_reads = true;         ///< Stages read through texel buffers where they can.
     uint64_t texel_alignment = 1;    ///< Of a texel binding's offset.
+    bool storage_8bit = false;       ///< Storage buffers may have elements of 8 bits,
+    bool storage_16bit = false;      ///< and of 16.
     uint32_t max_groups = 65535;     ///< Along one axis of a dispatch.
     uint32_t subgroup_size = 1;      ///< Of all pipelines; a device that cannot be asked for one size may use others.
     uint32_t crew = 8;               ///< Most invocations that share what they fetch by shuffles: 1, 2, 4 or 8.

@@ -151,8 +151,10 @@ void find_missing_limits(const VkPhysicalDeviceLimits& limits, std::vector<std::
 
 void find_missing_features(Candidate& candidate) {
     VkPhysicalDeviceVulkan13Features features13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features features12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+    VkPhysicalDeviceVulkan11Features features11{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES,
                                                 .pNext = &features13};
+    VkPhysicalDeviceVulkan12Features features12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                                .pNext = &features11};
     VkPhysicalDeviceFeatures2 features{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &features12};
     vkGetPhysicalDeviceFeatures2(candidate.physical, &features);
     std::vector<std::string>& missing = candidate.description.missing;
@@ -161,6 +163,8 @@ void find_missing_features(Candidate& candidate) {
     if (!features13.maintenance4) missing.emplace_back("maintenance4");
     if (!features13.synchronization2) missing.emplace_back("synchronization2");
     candidate.subgroup_size_control = features13.subgroupSizeControl;
+    candidate.storage_8bit = features12.storageBuffer8BitAccess;
+    candidate.storage_16bit = features11.storageBuffer16BitAccess;
 }
 
 void find_subgroup_size(Candidate& candidate, const VkPhysicalDeviceSubgroupProperties& subgroup,

@@ -74,6 +74,8 @@ struct Candidate {
     uint32_t queue_family = 0;
     uint32_t timestamp_bits = 0;  ///< 0: it has none.
     bool subgroup_size_control = false;
+    bool storage_8bit = false;
+    bool storage_16bit = false;
     SubgroupSize subgroup;
     uint32_t max_workgroup_subgroups = 0;  ///< Where a size is required.
     Limits limits;                         ///< Of a device with Vulkan 1.3, or lowered for tests.

@@ -40,6 +40,9 @@ constexpr spv::Capability kCapabilities[] = {
     spv::Capability::GroupNonUniform,
     spv::Capability::GroupNonUniformArithmetic,
     spv::Capability::GroupNonUniformShuffle,
+    // Of buffers with such elements, which a device without them does not get (add_layout_stages).
+    spv::Capability::StorageBuffer8BitAccess,
+    spv::Capability::StorageBuffer16BitAccess,
 };
 constexpr const char* kHint = "see docs/layouts.md";
 
@@ -115,6 +118,11 @@ private:
             break;
         }
         std::string file = part[1], place = file + ":" + std::string(part[2]), message = part[3];
+        if (file == "layout_interface.glsl" && message.find("redefinition") != message.npos) {
+            const std::string name = message.substr(0, message.find(" :"));
+            throw Error(ErrorKind::input, "the name " + name + " is one of the stages' own",
+                        (layout.folder / "layout.json").string(), "give the buffer or size another name");
+        }
         // Elsewhere than in the layout: a stage does not find there what it asks for.
         const bool in_layout = fs::path(file).is_absolute();
         what = message + (in_layout ? "" : " (" + place + ")");

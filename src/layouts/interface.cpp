@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "layouts/interface.hpp"
 
+#include <algorithm>
+
 namespace gnomon {
 namespace {
 
@@ -12,6 +14,12 @@ constexpr uint32_t kBuffersBinding = 24;
 std::string named(std::string text, const std::string& name) {
     for (size_t at = text.find('@'); at != std::string::npos; at = text.find('@', at + name.size())) text.replace(at, 1, name);
     return text;
+}
+
+std::string stored_reads(uint32_t binding, const LayoutBuffer& buffer) {
+    const std::string parts = buffer.type == "uint" ? "x" : buffer.type == "uvec2" ? "xy" : "xyzw";
+    return "GN_READ_AS(" + std::to_string(binding) + ", usamplerBuffer, " + buffer.stored + ", " + buffer.type + ", @, " +
+           parts + ")\n";
 }
 
 std::string reads(uint32_t binding, const std::string& type, const std::string& name) {
@@ -34,6 +42,8 @@ std::string first_bound(const LayoutBuffer& buffer) {
 }
 
 constexpr const char* kAtomics[] = {"Add", "Min", "Max", "And", "Or", "Exchange"};
+
+bool has_atomics(const LayoutBuffer& buffer) { return buffer.stored == "uint"; }
 
 std::string atomic_name(const std::string& operation) {
     std::string name = operation;
@@ -88,15 +98,17 @@ std::string checked_place(size_t number, const std::string& place, const std::st
 
 std::string write_accessors(const Layout& layout, size_t number, uint32_t binding) {
     const LayoutBuffer& buffer = layout.buffers[number];
+    const bool same = buffer.stored == buffer.type;
     const std::string relative = "i - " + first_bound(buffer), type = buffer.type;
     const std::string checked = checked_place(number, relative, "uint(@_elements.length())");
     const std::string place = "@_elements[" + (layout.watch == Layout::Watch::faults ? checked : relative) + "]";
     const std::string counted =
         layout.watch == Layout::Watch::accesses ? "count_atomic(" + std::to_string(number) + "u, i); " : "";
     std::string text = "layout(binding = " + std::to_string(binding) + ", scalar) buffer " + written_name(buffer) + " { " +
-                       type + " @_elements[]; };\n" + type + " fetch_@(uint i) { return " + place + "; }\n" +
-                       "void set_@(uint i, " + type + " value) { " + place + " = value; }\n";
-    if (type == "uint") {
+                       buffer.stored + " @_elements[]; };\n" + type + " fetch_@(uint i) { return " +
+                       (same ? place : type + "(" + place + ")") + "; }\n" + "void set_@(uint i, " + type + " value) { " +
+                       place + " = " + (same ? "value" : buffer.stored + "(value)") + "; }\n";
+    if (has_atomics(buffer)) {
         for (const char* operation : kAtomics)
             text += "uint " + atomic_name(operation) + "(uint i, uint value) { " + counted + "return atomic" + operation + "(" +
                     place + ", value); }\n";
@@ -114,7 +126,7 @@ std::string length_accessor(const LayoutBuffer& buffer, const std::string& lengt
 // In stages that do not write.
 std::string no_writes(const LayoutBuffer& buffer) {
     std::string text = "#define set_@(i, value)\n";
-    if (buffer.type == "uint") {
+    if (has_atomics(buffer)) {
         for (const char* operation : kAtomics) text += "#define " + atomic_name(operation) + "(i, value) 0u\n";
         text += "#define compare_exchange_@(i, expected, value) 0u\n";
     }
@@ -122,8 +134,9 @@ std::string no_writes(const LayoutBuffer& buffer) {
 }
 
 std::string read_accessors(const Layout& layout, size_t number, uint32_t binding) {
-    const std::string& type = layout.buffers[number].type;
-    const std::string text = reads(binding, type, "@");
+    const LayoutBuffer& buffer = layout.buffers[number];
+    const std::string& type = buffer.type;
+    const std::string text = buffer.stored == type ? reads(binding, type, "@") : stored_reads(binding, buffer);
     if (layout.watch == Layout::Watch::accesses) return text + noted(number, type, "@");
     if (layout.watch == Layout::Watch::nothing) return text;
     return text + type + " checked_fetch_@(uint i) { return fetch_@(" + checked_place(number, "i", "READ_COUNT(@)") +
@@ -199,6 +212,11 @@ std::string layout_interface(const Layout& layout) {
     std::string text = "// From layout.json.\n#define Iterator " + layout.iterator + "\n";
     text += "#ifdef LAYOUT_WRITE\n// What one dispatch writes is a part of the band.\n";
     text += "uint part_first_tile() { return params.item_first - params.band_first; }\n#endif\n";
+    for (const char* bits : {"8", "16"}) {
+        const auto small = [&](const LayoutBuffer& buffer) { return std::to_string(component_bits(buffer)) == bits; };
+        if (std::any_of(layout.buffers.begin(), layout.buffers.end(), small))
+            text += std::string("#extension GL_EXT_shader_") + bits + "bit_storage : require\n";
+    }
     if (layout.keeps_counts()) text += "#define LAYOUT_COUNTS\n";
     if (layout.watch == Layout::Watch::faults)
         text += kChecks + ("const uint kWalks = " + std::to_string(layout.buffers.size()) + "u;\n");

@@ -26,11 +26,17 @@ constexpr size_t kMostBuffers = 12;  // Bindings from 16 to 39, beside those of 
 struct Element {
     gpu::Texel texel;
     uint32_t bytes;
+    const char* type;
+    const char* stored;
 };
 
 const std::map<std::string, Element> kTypes = {
-    {"float", {gpu::Texel::r32_float, 4}}, {"vec2", {gpu::Texel::rg32_float, 8}}, {"vec4", {gpu::Texel::rgba32_float, 16}},
-    {"uint", {gpu::Texel::r32_uint, 4}},   {"uvec2", {gpu::Texel::rg32_uint, 8}}, {"uvec4", {gpu::Texel::rgba32_uint, 16}},
+    {"float", {gpu::Texel::r32_float, 4, "float", "float"}},       {"vec2", {gpu::Texel::rg32_float, 8, "vec2", "vec2"}},
+    {"vec4", {gpu::Texel::rgba32_float, 16, "vec4", "vec4"}},      {"uint", {gpu::Texel::r32_uint, 4, "uint", "uint"}},
+    {"uvec2", {gpu::Texel::rg32_uint, 8, "uvec2", "uvec2"}},       {"uvec4", {gpu::Texel::rgba32_uint, 16, "uvec4", "uvec4"}},
+    {"uint16", {gpu::Texel::r16_uint, 2, "uint", "uint16_t"}},     {"u16vec2", {gpu::Texel::rg16_uint, 4, "uvec2", "u16vec2"}},
+    {"u16vec4", {gpu::Texel::rgba16_uint, 8, "uvec4", "u16vec4"}}, {"uint8", {gpu::Texel::r8_uint, 1, "uint", "uint8_t"}},
+    {"u8vec2", {gpu::Texel::rg8_uint, 2, "uvec2", "u8vec2"}},      {"u8vec4", {gpu::Texel::rgba8_uint, 4, "uvec4", "u8vec4"}},
 };
 const std::map<std::string, bool> kExitOnly = {{"always", false}, {"exit", true}};
 const std::map<std::string, LayoutSize::Per> kSizePer = {{"list", LayoutSize::Per::list}, {"tile", LayoutSize::Per::tile}};
@@ -147,9 +153,14 @@ private:
     std::set<std::string> known_;
 };
 
-uint32_t initial_bits(const Members& members, const nlohmann::json& value, gpu::Texel format) {
-    if (value == "none" && !is_float(format)) return shared::kNone;
-    if (!is_float(format)) return members.number("initial", value);
+// Of a word, which components of fewer bits share.
+uint32_t initial_bits(const Members& members, const nlohmann::json& value, const LayoutBuffer& buffer) {
+    if (!is_float(buffer.format)) {
+        if (value == "none") return shared::kNone;
+        const uint32_t number = members.number("initial", value), bits = component_bits(buffer);
+        if (bits < 32 && number >> bits != 0) members.fail("initial", "is more than " + std::to_string(bits) + " bits hold");
+        return bits == 32 ? number : bits == 16 ? number * 0x10001u : number * 0x1010101u;
+    }
     const auto number = value.is_number() ? static_cast<float>(value.get<double>()) : 0.0f;
     if (!value.is_number() || !std::isfinite(number)) members.fail("initial", "is not a number that a 32-bit float holds");
     return std::bit_cast<uint32_t>(number);
@@ -234,7 +245,8 @@ void parse_buffer(Members& members, Layout& layout) {
         if (other.name == buffer.name) members.fail("name", "is '" + buffer.name + "', as another's");
     }
     const auto element = members.one_of("type", kTypes);
-    buffer.type = members.string("type");
+    buffer.type = element.type;
+    buffer.stored = element.stored;
     buffer.format = element.texel;
     buffer.element_bytes = element.bytes;
     if ((members.find("per") != nullptr) == (members.find("length") != nullptr))
@@ -245,8 +257,7 @@ void parse_buffer(Members& members, Layout& layout) {
         parse_length(members, layout, buffer);
     }
     buffer.exit_only = members.one_of("when", kExitOnly, "always");
-    if (const nlohmann::json* initial = members.find("initial"))
-        buffer.initial = initial_bits(members, *initial, buffer.format);
+    if (const nlohmann::json* initial = members.find("initial")) buffer.initial = initial_bits(members, *initial, buffer);
     if (layout.buffers.size() == kMostBuffers) members.fail("", "is one buffer more than " + std::to_string(kMostBuffers));
     layout.buffers.push_back(std::move(buffer));
 }
@@ -273,6 +284,11 @@ void parse_names(Members& members, Layout& layout) {
 
 bool is_float(gpu::Texel format) {
     return format == gpu::Texel::r32_float || format == gpu::Texel::rg32_float || format == gpu::Texel::rgba32_float;
+}
+
+uint32_t component_bits(const LayoutBuffer& buffer) {
+    const uint32_t components = buffer.type.ends_with('4') ? 4 : buffer.type.ends_with('2') ? 2 : 1;
+    return buffer.element_bytes / components * 8;
 }
 
 bool Layout::keeps_counts() const {

@@ -42,7 +42,8 @@ struct LayoutBuffer {
     };
 
     std::string name;
-    std::string type;  ///< Of an element, in GLSL.
+    std::string type;    ///< Of an element, in GLSL.
+    std::string stored;  ///< The same, or, of components of 8 or 16 bits, what is in memory: "u8vec2" for uvec2.
     gpu::Texel format = gpu::Texel::r32_uint;
     uint32_t element_bytes = 4;
     Per per = Per::band;
@@ -94,6 +95,9 @@ struct Layout {
 };
 
 bool is_float(gpu::Texel format);
+
+/// Bits of a component of an element: 8, 16 or 32.
+uint32_t component_bits(const LayoutBuffer& buffer);
 
 /// Parse a manifest. Errors: ErrorKind::input naming `where`, the line and the member.
 Layout parse_layout(std::string_view json, const std::string& where);

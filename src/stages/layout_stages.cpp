@@ -2,6 +2,7 @@
 #include "stages/layout_stages.hpp"
 
 #include <filesystem>
+#include <gnomon/error.hpp>
 #include <optional>
 
 #include "gpu/reflection.hpp"
@@ -37,6 +38,17 @@ std::optional<std::string> source_of(const std::filesystem::path& folder) {
     return error ? std::nullopt : std::optional(std::move(source));
 }
 
+void check_elements(const gpu::Limits& limits, const Layout& layout) {
+    for (const LayoutBuffer& buffer : layout.buffers) {
+        const uint32_t bits = component_bits(buffer);
+        if (bits == 32 || (bits == 16 ? limits.storage_16bit : limits.storage_8bit)) continue;
+        throw Error(ErrorKind::usage,
+                    "layout '" + layout.name + "' has elements of " + std::to_string(bits) + " bits in its buffer '" +
+                        buffer.name + "', which this device cannot store",
+                    "--layout", "use another layout, or another --device");
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> s_buffer_stages(const Layout& layout) {
@@ -50,6 +62,7 @@ std::vector<std::string> s_buffer_stages(const Layout& layout) {
 
 void add_layout_stages(gpu::Device& device, Programs& programs, const Layout& layout, const std::vector<std::string>& stages) {
     if (is_compiled(layout)) return;
+    check_elements(device.limits(), layout);
     std::vector<std::string> all = s_buffer_stages(layout);
     all.insert(all.end(), stages.begin(), stages.end());
     const std::optional<std::string> source = layout.folder.empty() ? std::string() : source_of(layout.folder);

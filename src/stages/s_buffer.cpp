@@ -15,7 +15,7 @@ using shared::kCountBlock;
 using shared::kTileTexels;
 
 // Places in memory are bound from a multiple of this on, which keeps every binding aligned whatever the size of its elements.
-constexpr uint64_t kPlaceAlign = 64;
+constexpr uint64_t kPlaceAlign = 256;
 constexpr const char* kScan = "sbuffer/scan";
 constexpr uint32_t kCounters = shared::kMostSizes + 1;
 

@@ -14,6 +14,7 @@
 #include "methods/method.hpp"
 #include "support/paths.hpp"
 #include "support/two_cubes.hpp"
+#include "unit/gpu/gpu_test.hpp"
 #include "unit/io/test_folder.hpp"
 #include "unit/io/throws.hpp"
 
@@ -93,6 +94,82 @@ TEST_F(ExternalLayoutTest, MayHaveATable) {
         settings.memory_budget = 8u << 20;
         expect_same_bits(render(std::string(GN_PATH(GNOMON_SOURCE_DIR)) + "/tests/layouts/hash"), expected);
         settings.memory_budget = 0;
+    }
+}
+
+// All bits of a range in pieces of 8 and 16.
+constexpr const char* kSmallManifest = R"({
+    "name": "own",
+    "sizes": [{ "name": "ranges", "as": "offsets" }],
+    "buffers": [
+        { "name": "enters", "type": "u16vec2", "per": "ranges" },
+        { "name": "leaving", "type": "u8vec4", "per": "ranges" },
+        { "name": "depths", "type": "u16vec4", "per": "ranges" },
+        { "name": "lows", "type": "uint16", "per": "ranges" },
+        { "name": "thirds", "type": "uint8", "per": "ranges" },
+        { "name": "highs", "type": "u8vec2", "per": "ranges", "initial": 7 }
+    ]
+})";
+constexpr const char* kSmallElements = R"(
+uvec2 halves(float x) { return uvec2(floatBitsToUint(x) & 0xffffu, floatBitsToUint(x) >> 16u); }
+float whole(uvec2 h) { return uintBitsToFloat(h.x | h.y << 16u); }
+
+uint layout_open(List list) { return first_ranges(list); }
+void layout_emit(List list, inout uint cursor, Range range) {
+    uint leave = floatBitsToUint(range.leave);
+    set_enters(cursor, halves(range.enter));
+    set_leaving(cursor, uvec4(leave, leave >> 8u, leave >> 16u, leave >> 24u));  // What does not fit is cut off.
+    set_depths(cursor, uvec4(halves(range.depth), halves(range.exit_depth)));
+    set_lows(cursor, range.entry);
+    set_thirds(cursor, range.entry >> 16u);
+    set_highs(cursor, uvec2(range.entry >> 24u, fetch_highs(cursor).y));
+    ++cursor;
+}
+void layout_close(List list, uint cursor) {}
+
+Iterator layout_begin(List list, Query query) { return Iterator(first_ranges(list), end_ranges(list)); }
+bool layout_more(Iterator it) { return it.x < it.y; }
+Range layout_next(inout Iterator it, Query query) {
+    uvec4 leave = fetch_leaving(it.x), depths = fetch_depths(it.x);
+    uvec2 high = fetch_highs(it.x);
+    uint entry = high.y == 7u ? fetch_lows(it.x) | fetch_thirds(it.x) << 16u | high.x << 24u : kNone;
+    Range range = Range(whole(fetch_enters(it.x)), uintBitsToFloat(leave.x | leave.y << 8u | leave.z << 16u | leave.w << 24u),
+                        whole(depths.xy), entry, whole(depths.zw));
+    ++it.x;
+    return range;
+}
+)";
+
+TEST_F(ExternalLayoutTest, MayHaveSmallElements) {
+    for (const char* method : {"exact", "dtr-analytic"}) {
+        SCOPED_TRACE(method);
+        settings.method = method;
+        const Frame expected = render("array");
+        put_content(folder / "layout.json", kSmallManifest);
+        put_content(folder / "layout.glsl", kSmallElements);
+        const Frame frame = render();
+        expect_same_frame(frame, expected);
+        EXPECT_EQ(frame.stats.buffer_bytes.at("s_buffer.thirds"), expected.stats.counts.at("ranges.0"));
+        // Of a device without texel buffers of enough elements.
+        const gpu::ScopedVariable limits("GNOMON_LIMITS", "texel_reads=0");
+        expect_same_frame(Renderer("", true).render(scene, poses, settings), expected);
+    }
+}
+
+TEST_F(ExternalLayoutTest, NamesOfTheStagesAreNotFree) {
+    copy_layout("array");
+    edit("layout.json", "\"buffers\": [", "\"buffers\": [{ \"name\": \"leaves\", \"type\": \"uint\", \"per\": \"list\" },");
+    expect_input_error({"the name 'leaves' is one of the stages' own", path("layout.json"), "another name"});
+}
+
+TEST_F(ExternalLayoutTest, SmallElementsAreRefusedByDevicesWithoutThem) {
+    put_content(folder / "layout.json", kSmallManifest);
+    put_content(folder / "layout.glsl", kSmallElements);
+    for (const auto& [limit, text] : {std::pair("storage_8bit=0", "elements of 8 bits in its buffer 'leaving'"),
+                                      std::pair("storage_16bit=0", "elements of 16 bits in its buffer 'enters'")}) {
+        const gpu::ScopedVariable limits("GNOMON_LIMITS", limit);
+        Renderer renderer("", true);
+        EXPECT_GNOMON_ERROR(renderer.render(scene, poses, settings), ErrorKind::usage, text);
     }
 }
 
@@ -196,7 +273,7 @@ TEST_F(ExternalLayoutTest, NamesWhatIsWrongInTheManifest) {
     expect_input_error({"'buffers' is missing", path("layout.json:1")});
     copy_layout("array");
     edit("layout.json", "vec4", "vec3");
-    expect_input_error({"'buffers/0/type' is 'vec3'", "float, uint, uvec2", path("layout.json:6")});
+    expect_input_error({"'buffers/0/type' is 'vec3'", "float, u16vec2, u16vec4, u8vec2", path("layout.json:6")});
 }
 
 TEST_F(ExternalLayoutTest, SaysWhichMemberOfTheManifestCannotBe) {

@@ -105,6 +105,33 @@ TEST(ManifestTest, OnlyRangesHaveASizeWhereNoneIsNamed) {
     EXPECT_FALSE(layout.counts_up());
 }
 
+TEST(ManifestTest, ElementsMayBeSmall) {
+    const auto layout = [](const std::string& buffer) {
+        return parse_layout(R"({ "name": "small", "buffers": [{ "name": "b", "per": "list", )" + buffer + "}] }",
+                            "layout.json");
+    };
+    const LayoutBuffer pair = layout(R"("type": "u8vec2", "initial": 18)").buffers[0];
+    EXPECT_EQ(pair.type, "uvec2");
+    EXPECT_EQ(pair.element_bytes, 2u);
+    EXPECT_EQ(component_bits(pair), 8u);
+    EXPECT_EQ(pair.initial, 0x12121212u);
+    const LayoutBuffer four = layout(R"("type": "u16vec4", "initial": 513)").buffers[0];
+    EXPECT_EQ(four.element_bytes, 8u);
+    EXPECT_EQ(component_bits(four), 16u);
+    EXPECT_EQ(four.initial, 0x02010201u);
+    EXPECT_EQ(component_bits(layout(R"("type": "vec4")").buffers[0]), 32u);
+    EXPECT_EQ(layout(R"("type": "uint8", "initial": "none")").buffers[0].initial, 0xffffffffu);
+    EXPECT_GNOMON_ERROR(layout(R"("type": "uint8", "initial": 256)"), ErrorKind::input,
+                        "'buffers/0/initial' is more than 8 bits hold");
+    EXPECT_GNOMON_ERROR(layout(R"("type": "u16vec2", "initial": 65536)"), ErrorKind::input, "is more than 16 bits hold");
+
+    const std::string text = layout_interface(layout(R"("type": "u16vec2")"));
+    EXPECT_THAT(text, HasSubstr("GL_EXT_shader_16bit_storage"));
+    EXPECT_THAT(text, Not(HasSubstr("GL_EXT_shader_8bit_storage")));
+    EXPECT_THAT(text, HasSubstr("void set_b(uint i, uvec2 value)"));
+    EXPECT_THAT(text, Not(HasSubstr("add_b")));
+}
+
 // They are listed, not computed: no counts of lists are needed for them.
 TEST(ManifestTest, TrianglesAreOfTiles) {
     constexpr const char* kShared = R"({ "name": "shared", "sizes": [{ "name": "triangles", "as": "offsets" }],

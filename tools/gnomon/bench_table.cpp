@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <spdlog/fmt/fmt.h>
 
+#include <cmath>
+
 #include "bench_report.hpp"
 #include "command.hpp"
 #include "timing/summary.hpp"
@@ -34,6 +36,43 @@ void print_metric(const BenchGroup& group, const BenchCase& measured, const std:
     print_line(line);
 }
 
+/// A column of what was counted.
+struct CountColumn {
+    const char* title;
+    const char* member;
+};
+constexpr CountColumn kCountColumns[] = {{"ranges", "ranges_visited_per_query"},
+                                         {"tests", "triangles_tested_per_query"},
+                                         {"reads", "reads_per_query"},
+                                         {"bytes", "bytes_per_query"},
+                                         {"sectors", "sectors_per_query"},
+                                         {"useful", "useful_share"},
+                                         {"lanes", "lane_activity"},
+                                         {"atomics", "atomics"},
+                                         {"on one", "most_atomics_on_one"},
+                                         {"used", "used_bytes"}};
+
+/// Four digits, without an exponent.
+std::string figure(double value) {
+    const int decimals = value >= 999.5 || value == std::floor(value) ? 0 : value >= 99.95 ? 1 : value >= 9.995 ? 2 : 3;
+    return fmt::format("{:.{}f}", value, decimals);
+}
+
+void print_counts(const BenchGroup& group) {
+    std::string line = fmt::format("{:<20}", "a query, or in all");
+    for (const CountColumn& column : kCountColumns) line += fmt::format(" {:>9}", column.title);
+    print_line(line);
+    for (const BenchCase& measured : group.cases) {
+        if (!measured.skipped.empty() || measured.layout.again) continue;
+        line = fmt::format("{:<20}", measured.layout.name);
+        for (const CountColumn& column : kCountColumns) {
+            const auto found = measured.counts.find(column.member);
+            line += fmt::format(" {:>9}", found == measured.counts.end() ? "-" : figure(found->second));
+        }
+        print_line(line);
+    }
+}
+
 }  // namespace
 
 void print_group(const BenchResults& results, const BenchGroup& group) {
@@ -52,6 +91,7 @@ void print_group(const BenchResults& results, const BenchGroup& group) {
             first = false;
         }
     }
+    print_counts(group);
     print_line("");
 }
 

@@ -49,6 +49,9 @@ TEST_F(CliBenchTest, ALittleRun) {
         EXPECT_EQ(counts["lost"], null ? counts["ranges"] : json());
         EXPECT_GT(measured["stages"]["build"]["median"], 0.0);
         EXPECT_EQ(measured["floor"]["bytes"], counts["map_bytes"]);
+        EXPECT_EQ(counts.contains("sectors_per_query"), true);
+        EXPECT_EQ(counts["sectors_per_query"] > 0.0, !null);
+        EXPECT_EQ(counts["atomics"] > 0.0, null);  // Of its counter of what is lost.
         if (measured["again"]) continue;
         EXPECT_EQ(measured["same_picture"], null ? json() : json(true));
         uint64_t lists = 0;
