@@ -111,7 +111,10 @@ struct LayoutAccesses {
     uint64_t turns = 0;            ///< Of walks, which a group makes together.
     uint64_t visits = 0;           ///< Elements that the queries' walks gave, at most 32 a turn.
     uint64_t most_reads = 0;       ///< By one query.
-    bool complete = true;          ///< There was room for all records of the sample. Else what is above is of no use.
+    uint64_t chained_reads =
+        0;  ///< Of each query those that it has to make one after the other, each for the next one's index.
+    uint64_t longest_chain = 0;  ///< The most of these of one query.
+    bool complete = true;        ///< There was room for all records of the sample. Else what is above is of no use.
 
     uint64_t atomics = 0;       ///< By which the S-buffers were filled.
     uint64_t most_atomics = 0;  ///< On one address, in a band of a light's view.

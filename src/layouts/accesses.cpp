@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "layouts/interface.hpp"
+
 namespace gnomon {
 namespace {
 
@@ -37,7 +39,8 @@ private:
 // Records of one group, hit by hit.
 class Group {
 public:
-    Group(const std::vector<uint32_t>& element_bytes, LayoutAccesses& sum) : element_bytes_(element_bytes), sum_(sum) {}
+    Group(const std::vector<uint32_t>& element_bytes, const Dependences& dependences, LayoutAccesses& sum)
+        : element_bytes_(element_bytes), dependences_(dependences), sum_(sum) {}
 
     void add(std::span<const LayoutRead> reads) {
         accesses_.clear();
@@ -58,6 +61,7 @@ public:
 private:
     void add_query(std::span<const LayoutRead> reads) {
         uint64_t count = 0;
+        std::vector<uint32_t> of_all(element_bytes_.size());
         std::vector<uint32_t> of_each(element_bytes_.size());  // At this time.
         uint32_t when = ~0u;
         for (const LayoutRead& read : reads) {
@@ -68,10 +72,14 @@ private:
             when = read.when;
             accesses_.push_back({read.when, read.what, of_each[read.what]++, read.element});
             sum_.bytes += element_bytes_[read.what];
+            ++of_all[read.what];
             ++count;
         }
         sum_.reads += count;
         sum_.most_reads = std::max(sum_.most_reads, count);
+        const uint64_t chain = dependences_.longest_chain(of_all);
+        sum_.chained_reads += chain;
+        sum_.longest_chain = std::max(sum_.longest_chain, chain);
     }
 
     void add_requests() {
@@ -110,6 +118,7 @@ private:
     uint64_t end_byte(const Access& access) const { return first_byte(access) + element_bytes_[access.what]; }
 
     const std::vector<uint32_t>& element_bytes_;
+    const Dependences& dependences_;
     LayoutAccesses& sum_;
     std::vector<Access> accesses_;
     std::vector<uint32_t> turns_;
@@ -124,10 +133,18 @@ std::vector<uint32_t> element_bytes(const Layout& layout) {
     return bytes;
 }
 
-void add_reads(std::span<const LayoutRead> reads, const std::vector<uint32_t>& element_bytes, LayoutAccesses& sum) {
+std::vector<std::string> names_of_reads(const Layout& layout) {
+    std::vector<std::string> names;
+    for (const LayoutBuffer& buffer : layout.buffers) names.push_back(buffer.name);
+    for (const LayoutSize& size : layout.sizes) names.push_back(read_name(size));
+    return names;
+}
+
+void add_reads(std::span<const LayoutRead> reads, const std::vector<uint32_t>& element_bytes, const Dependences& dependences,
+               LayoutAccesses& sum) {
     std::vector<LayoutRead> sorted(reads.begin(), reads.end());
     std::stable_sort(sorted.begin(), sorted.end(), [](const LayoutRead& a, const LayoutRead& b) { return a.hit < b.hit; });
-    Group group(element_bytes, sum);
+    Group group(element_bytes, dependences, sum);
     for (size_t first = 0, end = 0; first < sorted.size(); first = end) {
         const auto group_of = [&](size_t i) { return sorted[i].hit / shared::kReadGroup; };
         while (end < sorted.size() && group_of(end) == group_of(first)) ++end;

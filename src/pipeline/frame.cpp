@@ -146,9 +146,11 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     const std::string pages = !method.has_s_buffer() ? "" : keeps_ranges(settings) ? "all" : settings.pages;
     const uint64_t most_slots =
         batch_slots(device, view, settings.spp, lit_planes(frame.light_count, method.fractional), pages == "asked", room / 4);
-    const std::unique_ptr<LayoutWatch> watch = layout.watch == Layout::Watch::nothing
-                                                   ? nullptr
-                                                   : std::make_unique<LayoutWatch>(device, layout, settings.count_accesses);
+    const std::unique_ptr<LayoutWatch> watch =
+        layout.watch == Layout::Watch::nothing
+            ? nullptr
+            : std::make_unique<LayoutWatch>(device, layout, settings.count_accesses,
+                                            programs.spirv(layout.stage(method.shadow_stage)));
     Sampler sampler(device, programs, geometry, view, bins, lights,
                     {.shadow_stage = method.has_s_buffer() ? layout.stage(method.shadow_stage) : method.shadow_stage,
                      .spp = settings.spp,

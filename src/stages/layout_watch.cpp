@@ -14,12 +14,13 @@ constexpr uint32_t kMostReads = 1u << 20;  // Records of one dispatch.
 
 }  // namespace
 
-LayoutWatch::LayoutWatch(gpu::Device& device, const Layout& layout, uint32_t groups)
+LayoutWatch::LayoutWatch(gpu::Device& device, const Layout& layout, uint32_t groups, std::span<const uint32_t> test)
     : device_(device), layout_(layout), element_bytes_(element_bytes(layout)) {
     if (layout.watch == Layout::Watch::faults)
         faults_ = gpu::upload_new(device, "layout_faults", std::vector<glm::uvec2>(layout.buffers.size() + 1));
     if (layout.watch != Layout::Watch::accesses) return;
     accesses_.emplace();
+    dependences_.emplace(test, names_of_reads(layout));
     const shared::ReadsHead head{0, kMostReads, ~0u / groups};
     reads_ = device.allocate("layout_reads", sizeof(head) + uint64_t{kMostReads} * sizeof(shared::LayoutRead));
     gpu::upload(device, reads_, std::as_bytes(std::span(&head, 1)));
@@ -79,7 +80,7 @@ void LayoutWatch::count_reads() {
         gpu::download_vector<shared::LayoutRead>(device_, reads_, std::min(count, kMostReads), sizeof(shared::ReadsHead));
     device_.recorder().fill("sample/shadow", reads_, 0, 0, 4);
     if (count > kMostReads) accesses_->complete = false;
-    if (accesses_->complete) add_reads(reads, element_bytes_, *accesses_);
+    if (accesses_->complete) add_reads(reads, element_bytes_, *dependences_, *accesses_);
 }
 
 std::vector<LayoutFault> LayoutWatch::faults() const {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 
+#include "layouts/dependences.hpp"
 #include "layouts/layout.hpp"
 #include "stages/grid.hpp"
 
@@ -13,8 +14,8 @@ namespace gnomon {
 
 class LayoutWatch {
 public:
-    /// Of accesses: reads of one in so many groups of shadow tests.
-    LayoutWatch(gpu::Device& device, const Layout& layout, uint32_t groups);
+    /// Of accesses: reads of one in so many groups of shadow tests. test: SPIR-V of these.
+    LayoutWatch(gpu::Device& device, const Layout& layout, uint32_t groups, std::span<const uint32_t> test);
 
     /// What stages bind that read the layout, and that write to it between begin_fill and end_fill; or what stands in for it.
     std::vector<gpu::Binding> read_bindings() const;
@@ -37,6 +38,7 @@ private:
     gpu::Device& device_;
     Layout layout_;
     std::vector<uint32_t> element_bytes_;
+    std::optional<Dependences> dependences_;
     gpu::Buffer faults_;   ///< A uvec2 for each buffer of the layout, and one more.
     gpu::Buffer reads_;    ///< shared::ReadsHead, then shared::LayoutRead.
     gpu::Buffer atomics_;  ///< Where the counts of each buffer, size and counter begin, then these, one for each element.

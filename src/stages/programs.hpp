@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ public:
     void add(const std::string& name, std::vector<uint32_t> spirv, std::string source = {});
     /// The stage was added, and compiled from this.
     bool has(const std::string& name, const std::string& source) const;
+
+    /// Of a stage that was added.
+    std::span<const uint32_t> spirv(const std::string& name) const { return added_.at(name).spirv; }
 
     /// The stage specialised with constant_id 0, 1, ... = constants. Valid as long as this object, or until the stage is added
     /// anew.

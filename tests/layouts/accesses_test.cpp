@@ -8,7 +8,10 @@
 #include <gnomon/error.hpp>
 #include <gnomon/render.hpp>
 
+#include "gpu/reflection.hpp"
+#include "layouts/compile_layout.hpp"
 #include "layouts/layout.hpp"
+#include "stages/programs.hpp"
 #include "support/two_cubes.hpp"
 #include "unit/io/throws.hpp"
 
@@ -20,6 +23,64 @@ using shared::kTurnBegins;
 using shared::LayoutRead;
 
 constexpr uint32_t kRound = 0x10000;
+
+/// Of the shadow test compiled for a layout.
+Dependences dependences_of(const std::string& layout, const std::vector<std::string>& names) {
+    return Dependences(find_shader("sample/shadow@" + layout).spirv, names);
+}
+
+TEST(DependencesTest, OfAnArrayEndAtItsRanges) {
+    for (const char* layout : {"array", "array+storage"}) {
+        SCOPED_TRACE(layout);
+        const Dependences found = dependences_of(layout, {"offsets_of_ranges", "ranges"});
+        EXPECT_FALSE(found.waits_for(0, 0));
+        EXPECT_FALSE(found.waits_for(0, 1));
+        EXPECT_TRUE(found.waits_for(1, 0));
+        EXPECT_FALSE(found.waits_for(1, 1));
+        EXPECT_EQ(found.longest_chain(std::vector<uint32_t>{2, 100}), 2u);
+        EXPECT_EQ(found.longest_chain(std::vector<uint32_t>{2, 0}), 1u);
+        EXPECT_EQ(found.longest_chain(std::vector<uint32_t>{0, 0}), 0u);
+    }
+}
+
+TEST(DependencesTest, OfALinkedListGoFromNodeToNode) {
+    for (const char* layout : {"linked", "linked+storage"}) {
+        SCOPED_TRACE(layout);
+        const Dependences found = dependences_of(layout, {"heads", "links", "ranges"});
+        EXPECT_FALSE(found.waits_for(0, 1));
+        EXPECT_TRUE(found.waits_for(1, 0));
+        EXPECT_TRUE(found.waits_for(1, 1));
+        EXPECT_FALSE(found.waits_for(1, 2));
+        EXPECT_TRUE(found.waits_for(2, 1));
+        EXPECT_FALSE(found.waits_for(2, 2));
+        EXPECT_EQ(found.longest_chain(std::vector<uint32_t>{1, 0, 0}), 1u);
+        EXPECT_EQ(found.longest_chain(std::vector<uint32_t>{1, 7, 7}), 1u + 7 + 1);
+    }
+}
+
+// Branches for all ranges (query.all), which the shadow test never asks for, lead from head to head and from word to word.
+TEST(DependencesTest, BranchesOfAConstantAreCutOff) {
+    std::set<std::string> bound;
+    for (const gpu::Resource& resource : gpu::reflect(find_shader("sample/shadow@array"), {}).resources)
+        bound.insert(resource.name);
+    const auto of = [&](const std::string& layout, const std::vector<std::string>& names) {
+        return Dependences(compile_stage("sample/shadow", find_layout(layout), false, bound), names);
+    };
+    const Dependences bits = of("bits", {"offsets_of_triangles", "rows", "listed"});
+    EXPECT_TRUE(bits.waits_for(1, 0));
+    EXPECT_FALSE(bits.waits_for(1, 1));
+    EXPECT_FALSE(bits.waits_for(1, 2));
+    EXPECT_TRUE(bits.waits_for(2, 1));
+    const Dependences buckets = of("linked-buckets", {"heads", "links"});
+    EXPECT_FALSE(buckets.waits_for(0, 0));
+    EXPECT_FALSE(buckets.waits_for(0, 1));
+    EXPECT_TRUE(buckets.waits_for(1, 0));
+    EXPECT_TRUE(buckets.waits_for(1, 1));
+}
+
+TEST(DependencesTest, WhatIsNoModule) {
+    EXPECT_GNOMON_ERROR(Dependences(std::vector<uint32_t>{1, 2, 3}, {}), ErrorKind::internal, "not a SPIR-V module");
+}
 
 TEST(AccessesTest, OfRecordsByHand) {
     // Offsets of 4 bytes are buffer 1, ranges of 16 bytes buffer 0. Two hits of a group: their records come mixed, as a device
@@ -36,8 +97,11 @@ TEST(AccessesTest, OfRecordsByHand) {
                                            {0, kRound + 1, 0, 0},
                                            {0, kRound + 2, kTurnBegins, 0},
                                            {0, kRound + 2, 0, 1}};
+    const Dependences dependences = dependences_of("array", {"ranges", "offsets_of_ranges"});
     LayoutAccesses sum;
-    add_reads(reads, {16, 4}, sum);
+    add_reads(reads, {16, 4}, dependences, sum);
+    EXPECT_EQ(sum.chained_reads, 4u);  // An offset and a range of each.
+    EXPECT_EQ(sum.longest_chain, 2u);
     EXPECT_EQ(sum.groups, 1u);
     EXPECT_EQ(sum.queries, 2u);
     EXPECT_EQ(sum.reads, 7u);
@@ -52,7 +116,7 @@ TEST(AccessesTest, OfRecordsByHand) {
     EXPECT_EQ(sum.visits, 3u);
 
     // A second dispatch, whose hit 33 is another group's: elements 7 and 8 of 16 bytes lie in sectors 3 and 4, lines 0 and 1.
-    add_reads(std::vector<LayoutRead>{{33, 0, kQueryBegins, 0}, {33, 0, 0, 7}, {33, 0, 0, 8}}, {16, 4}, sum);
+    add_reads(std::vector<LayoutRead>{{33, 0, kQueryBegins, 0}, {33, 0, 0, 7}, {33, 0, 0, 8}}, {16, 4}, dependences, sum);
     EXPECT_EQ(sum.groups, 2u);
     EXPECT_EQ(sum.queries, 3u);
     EXPECT_EQ(sum.sectors, 4u);
@@ -62,7 +126,8 @@ TEST(AccessesTest, OfRecordsByHand) {
 
 TEST(AccessesTest, ElementsMayLieAcrossSectors) {
     LayoutAccesses sum;
-    add_reads(std::vector<LayoutRead>{{0, 0, 0, 2}, {5, 0, 0, 10}, {6, 0, 0, 10}}, {12}, sum);
+    add_reads(std::vector<LayoutRead>{{0, 0, 0, 2}, {5, 0, 0, 10}, {6, 0, 0, 10}}, {12}, dependences_of("array", {"ranges"}),
+              sum);
     EXPECT_EQ(sum.bytes, 36u);
     EXPECT_EQ(sum.distinct_bytes, 24u);
     EXPECT_EQ(sum.groups, 0u);   // None of their queries begins here.
@@ -127,6 +192,10 @@ TEST_F(AccessesFrameTest, AreWhatLayoutsAreKnownToDo) {
         EXPECT_EQ(of_linked.atomics, 2 * ranges);
         EXPECT_EQ(of_linked.most_atomics, ranges);  // The counter of nodes.
         EXPECT_GT(of_linked.sectors, of_array.sectors);
+        EXPECT_EQ(of_array.longest_chain, 2u);
+        EXPECT_LE(of_array.chained_reads, 2 * queries);
+        EXPECT_EQ(of_linked.longest_chain, (of_linked.most_reads - 1) / (range_reads + 1) + 2);
+        EXPECT_GE(of_linked.chained_reads, queries + of_linked.visits);
 
         const Frame null = render("null");
         EXPECT_EQ(null.layout_accesses->queries, queries);
@@ -143,6 +212,13 @@ TEST_F(AccessesFrameTest, AreThoseOfASample) {
     EXPECT_LT(some.groups, all.groups / 2);
     EXPECT_NEAR(double(some.reads) / double(some.queries), double(all.reads) / double(all.queries), 2.0);
     EXPECT_EQ(render("array").layout_accesses->sectors, some.sectors);
+}
+
+TEST_F(AccessesFrameTest, OfBitsNoneWaitsForAnotherWord) {
+    settings.count_accesses = 1;
+    const LayoutAccesses bits = render("bits").layout_accesses.value();
+    EXPECT_EQ(bits.longest_chain, 3u);  // Where a tile's triangles begin, a word of bits, a triangle.
+    EXPECT_GT(bits.most_reads, 10u);
 }
 
 TEST_F(AccessesFrameTest, OfPagesSomeIsSlack) {

@@ -64,11 +64,13 @@ std::map<std::string, double> counts_of(const LayoutAccesses& accesses) {
                                             {"held_bytes", static_cast<double>(accesses.held_bytes)},
                                             {"used_bytes", static_cast<double>(accesses.used_bytes)},
                                             {"counted_groups", static_cast<double>(accesses.groups)},
-                                            {"most_reads_of_a_query", static_cast<double>(accesses.most_reads)}};
+                                            {"most_reads_of_a_query", static_cast<double>(accesses.most_reads)},
+                                            {"longest_chain", static_cast<double>(accesses.longest_chain)}};
     const auto add = [&](const char* name, uint64_t of, uint64_t all) {
         if (all > 0) counts[name] = static_cast<double>(of) / static_cast<double>(all);
     };
     add("reads_per_query", accesses.reads, accesses.queries);
+    add("chain_per_query", accesses.chained_reads, accesses.queries);
     add("bytes_per_query", accesses.bytes, accesses.queries);
     add("sectors_per_query", accesses.sectors, accesses.queries);
     add("lines_per_query", accesses.lines, accesses.queries);

@@ -44,6 +44,7 @@ struct CountColumn {
 constexpr CountColumn kCountColumns[] = {{"ranges", "ranges_visited_per_query"},
                                          {"tests", "triangles_tested_per_query"},
                                          {"reads", "reads_per_query"},
+                                         {"chain", "chain_per_query"},
                                          {"bytes", "bytes_per_query"},
                                          {"sectors", "sectors_per_query"},
                                          {"useful", "useful_share"},
