@@ -64,7 +64,7 @@ Iterator checked_begin(List list, Query query) {
 #define layout_begin checked_begin
 #endif
 
-#ifdef LAYOUT_TRACED
+#ifdef LAYOUT_NOTED
 void note_hit(uint i, bool here) {
     reading_hit = i;
     read_is_kept = here && (i / kReadGroup) * 0x9e3779b1u <= reads_head.below;

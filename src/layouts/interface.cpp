@@ -67,7 +67,7 @@ uint checked_place(uint number, uint place, uint count, uint i) {
 
 // What counts accesses. Hits of a group are those that a device with subgroups of 32 tests in one.
 constexpr const char* kCounts = R"(#ifdef LAYOUT_READ
-#define LAYOUT_TRACED
+#define LAYOUT_NOTED
 layout(binding = 18, scalar) buffer LayoutReads { ReadsHead reads_head; LayoutRead layout_reads[]; };
 bool read_is_kept = false;
 uint reading_hit = 0u, read_when = 0u;
@@ -86,7 +86,7 @@ void count_atomic(uint number, uint i) { atomicAdd(layout_atomics[layout_atomics
 
 // What is read through fetch_@ is noted.
 std::string noted(size_t number, const std::string& type, const std::string& name) {
-    return named("#ifdef LAYOUT_TRACED\n" + type + " noted_@(uint i) {\n    note_read(" + std::to_string(number) +
+    return named("#ifdef LAYOUT_NOTED\n" + type + " noted_@(uint i) {\n    note_read(" + std::to_string(number) +
                      "u, i);\n    return fetch_@(i);\n}\n#define fetch_@(i) noted_@(i)\n#endif\n",
                  name);
 }

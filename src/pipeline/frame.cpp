@@ -199,8 +199,8 @@ void make_frame(gpu::Device& device, Programs& programs, const Scene& scene, std
     const auto found_faults = [&] { return watch ? watch->faults() : std::vector<LayoutFault>(); };
     frame.layout_faults = found_faults();
     frame.layout_accesses = watch ? watch->accesses() : std::nullopt;
-    if (reads_lists(settings) &&
-        frame.layout_faults.empty()) {  // What a layout gives whose walks do not end is nothing to keep.
+    // What a layout gives whose walks do not end is nothing to keep.
+    if (reads_lists(settings) && frame.layout_faults.empty()) {
         shadows.read_ranges(frame);
         frame.layout_faults = found_faults();
     }

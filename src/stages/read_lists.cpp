@@ -21,8 +21,8 @@ void check_total(const SBuffer& s_buffer, const Band& band, uint64_t list_first,
     const auto longest = std::max_element(counts.begin(), counts.end());
     const uint64_t list = list_first + static_cast<uint64_t>(longest - counts.begin());
     throw Error(ErrorKind::internal,
-                "list " + std::to_string(list) + " gives " + std::to_string(*longest) + " ranges, and there are " +
-                    std::to_string(band.range_count) + " in all lists",
+                "list " + std::to_string(list) + " gives " + std::to_string(*longest) + " ranges of " +
+                    std::to_string(band.range_count) + " ranges in all lists",
                 s_buffer.layout().name, "correct the layout, if it is yours, or report it");
 }
 

@@ -208,6 +208,10 @@ TEST_F(ExternalLayoutTest, AccessesAndWalksAreChecked) {
     ASSERT_EQ(endless.layout_faults.size(), 1u);
     EXPECT_EQ(endless.layout_faults[0].buffer, "");
     EXPECT_GT(endless.layout_faults[0].count, 0u);
+    settings.keep_ranges = true;
+    EXPECT_TRUE(render().light_ranges.empty());
+    settings.check_layout = false;
+    EXPECT_GNOMON_ERROR(render(), ErrorKind::internal, " ranges in all lists");
 }
 
 TEST_F(ExternalLayoutTest, DoesNotTakeThePlaceOfOneBuiltIn) {
