@@ -58,7 +58,7 @@ TEST_F(ScanTest, ZerosAndOneLargeValue) {
 // Where the sum passes 2^32 in the last run, in an earlier one, or only from run to run.
 TEST_F(ScanTest, SumsThatDoNotFitAreReported) {
     for (size_t size : {2u, 1000u, 1025u, 5000u, 70000u}) {
-        for (size_t place : {size_t(0), size / 2, size - 2}) {
+        for (size_t place : {size_t(0), (size - 1) / 2, size - 2}) {
             std::vector<uint32_t> values(size, 1);
             values[place] = 0xffffffffu;
             values[place + 1] = 10;

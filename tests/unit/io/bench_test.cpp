@@ -105,11 +105,40 @@ TEST(BenchMetrics, AreSumsOfStages) {
 
 TEST(BenchCounts, AreSumsOverLights) {
     FrameStats stats;
-    stats.counts = {
-        {"ranges.0", 5}, {"ranges.1", 7}, {"longest_chain.0", 5}, {"longest_chain.1", 3}, {"bin_entries.camera", 2}};
+    stats.counts = {{"ranges.0", 5}, {"ranges.1", 7}, {"bin_entries.camera", 2}};
     stats.peak_bytes = 11;
-    EXPECT_THAT(cli::counts_of(stats), UnorderedElementsAre(Pair("ranges", 12.0), Pair("longest_chain", 5.0),
-                                                            Pair("bin_entries.camera", 2.0), Pair("peak_bytes", 11.0)));
+    EXPECT_THAT(cli::counts_of(stats),
+                UnorderedElementsAre(Pair("ranges", 12.0), Pair("bin_entries.camera", 2.0), Pair("peak_bytes", 11.0)));
+}
+
+TEST(BenchCounts, OfAccessesAreMeans) {
+    const LayoutAccesses accesses{.groups = 2,
+                                  .queries = 40,
+                                  .reads = 100,
+                                  .bytes = 1000,
+                                  .distinct_bytes = 480,
+                                  .sectors = 20,
+                                  .lines = 10,
+                                  .requests = 8,
+                                  .request_sectors = 24,
+                                  .turns = 4,
+                                  .visits = 32,
+                                  .most_reads = 7,
+                                  .chained_reads = 60,
+                                  .longest_chain = 5,
+                                  .atomics = 9,
+                                  .most_atomics = 3,
+                                  .held_bytes = 64,
+                                  .used_bytes = 48};
+    EXPECT_THAT(
+        cli::counts_of(accesses),
+        UnorderedElementsAre(Pair("counted_groups", 2.0), Pair("reads_per_query", 2.5), Pair("bytes_per_query", 25.0),
+                             Pair("chain_per_query", 1.5), Pair("longest_chain", 5.0), Pair("sectors_per_query", 0.5),
+                             Pair("lines_per_query", 0.25), Pair("sectors_per_request", 3.0), Pair("useful_share", 0.75),
+                             Pair("lane_activity", 0.25), Pair("most_reads_of_a_query", 7.0), Pair("atomics", 9.0),
+                             Pair("most_atomics_on_one", 3.0), Pair("held_bytes", 64.0), Pair("used_bytes", 48.0)));
+    // Of a layout that reads nothing there is nothing to share out.
+    EXPECT_THAT(cli::counts_of(LayoutAccesses{}), testing::SizeIs(7));
 }
 
 TEST(BenchCounts, TexelsAreAddedUp) {
