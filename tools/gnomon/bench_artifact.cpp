@@ -148,7 +148,7 @@ std::string readme_text(const BenchResults& results, const Copies& scenes, const
         "# A run of gnomon bench\n\n"
         "gnomon {}, commit {}, on {}.\n\n"
         "| file | |\n| --- | --- |\n"
-        "| `run.sh` | the same run again, with the scenes and layouts of this folder |\n"
+        "| `run.sh` | the same run again, with the scenes and layouts of this folder: `again.json` and `again.csv` |\n"
         "| `results.json` | all samples, counts and comparisons; Google Benchmark's `compare.py` reads it |\n"
         "| `results.csv` | all samples, one a line, in milliseconds |\n"
         "| `system.txt` | machine, device, driver, limits |\n"
@@ -156,7 +156,12 @@ std::string readme_text(const BenchResults& results, const Copies& scenes, const
         GNOMON_VERSION, kCommit, results.device.name);
     for (const auto& [from, to] : scenes) text += fmt::format("| `{}` | a scene, with its buffers and images |\n", to);
     for (const auto& [from, to] : layouts) text += fmt::format("| `{}` | a layout, of a folder |\n", to);
-    text += "\nThe figures are made of the results by\n\n    gnomon report results.json -o page.html\n";
+    text +=
+        "\n`sh run.sh` takes the `gnomon` that is on the PATH, `GNOMON=/path/to/gnomon sh run.sh` another one. Counts are the "
+        "same again,\n"
+        "but for places that layouts give out in the order of arrival; times are compared by\n\n"
+        "    compare.py benchmarks results.json again.json\n\n"
+        "The figures are made of the results by\n\n    gnomon report results.json -o page.html\n";
     return text;
 }
 

@@ -191,7 +191,7 @@ DataTable times_table(const std::vector<BenchFile>& files) {
 
 DataTable counts_table(const std::vector<BenchFile>& files) {
     const RowHead head(files);
-    DataTable table{"counts", "Counts", "What was counted; the same every time. A dash: not counted.", head.columns(), {}};
+    DataTable table{"counts", "Counts", "What was counted. An empty cell: not counted.", head.columns(), {}};
     std::vector<std::string> names;
     for (const BenchFile& file : files)
         for (const Case& c : file.cases)
