@@ -9,9 +9,9 @@
 
 namespace gnomon {
 
-/// Found in a stage's SPIR-V, whatever its loops and branches do: a read that is written once counts as one, however often it is
-/// made. An index that only some branch computes so counts; that a branch itself waits does not. Branches that ask a constant,
-/// which the arguments of functions may be, are those of that constant.
+/// Found in a stage's SPIR-V, whatever its loops and branches do: a read that is written once counts as one, however often it
+/// is made. An index that only some branch computes so counts; that a branch itself waits does not. Branches that ask a
+/// constant, which the arguments of functions may be, are those of that constant.
 class Dependences {
 public:
     /// names: of the texel buffers, or the blocks in their place, whose reads count. Errors: ErrorKind::internal for what is no

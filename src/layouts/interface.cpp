@@ -43,8 +43,6 @@ std::string first_bound(const LayoutBuffer& buffer) {
 
 constexpr const char* kAtomics[] = {"Add", "Min", "Max", "And", "Or", "Exchange"};
 
-bool has_atomics(const LayoutBuffer& buffer) { return buffer.stored == "uint"; }
-
 std::string atomic_name(const std::string& operation) {
     std::string name = operation;
     name[0] = static_cast<char>(name[0] - 'A' + 'a');
@@ -108,7 +106,7 @@ std::string write_accessors(const Layout& layout, size_t number, uint32_t bindin
                        buffer.stored + " @_elements[]; };\n" + type + " fetch_@(uint i) { return " +
                        (same ? place : type + "(" + place + ")") + "; }\n" + "void set_@(uint i, " + type + " value) { " +
                        place + " = " + (same ? "value" : buffer.stored + "(value)") + "; }\n";
-    if (has_atomics(buffer)) {
+    if (buffer.has_atomics()) {
         for (const char* operation : kAtomics)
             text += "uint " + atomic_name(operation) + "(uint i, uint value) { " + counted + "return atomic" + operation + "(" +
                     place + ", value); }\n";
@@ -126,7 +124,7 @@ std::string length_accessor(const LayoutBuffer& buffer, const std::string& lengt
 // In stages that do not write.
 std::string no_writes(const LayoutBuffer& buffer) {
     std::string text = "#define set_@(i, value)\n";
-    if (has_atomics(buffer)) {
+    if (buffer.has_atomics()) {
         for (const char* operation : kAtomics) text += "#define " + atomic_name(operation) + "(i, value) 0u\n";
         text += "#define compare_exchange_@(i, expected, value) 0u\n";
     }

@@ -53,6 +53,8 @@ struct LayoutBuffer {
     bool exit_only = false;           ///< Only for methods whose ranges have a depth at their exit.
     std::optional<uint32_t> initial;  ///< The bits of each component before the fill; without, they may be anything.
     size_t line = 0;
+
+    bool has_atomics() const { return stored == "uint"; }
 };
 
 constexpr uint32_t kPoison = 0xcdcdcdcd;

@@ -21,7 +21,8 @@ public:
     std::vector<gpu::Binding> read_bindings() const;
     std::vector<gpu::Binding> write_bindings() const;
 
-    /// A band of so many elements of each buffer, places of each size and counters is filled. Errors: ErrorKind::out_of_memory.
+    /// A band is filled. counts: how many places atomics may go to, of each buffer, size and counter.
+    /// Errors: ErrorKind::out_of_memory.
     void begin_fill(std::vector<uint64_t> counts);
     /// Count the atomics of the fill.
     void end_fill();

@@ -386,7 +386,7 @@ void SBuffer::begin_watch(const Totals& held) {
     if (watch_ == nullptr) return;
     std::vector<uint64_t> counts;
     for (const LayoutBuffer& buffer : layout_.buffers)
-        counts.push_back(layout_.has(buffer) ? elements_of(layout_, buffer, held) : 0);
+        counts.push_back(layout_.has(buffer) && buffer.has_atomics() ? elements_of(layout_, buffer, held) : 0);
     counts.insert(counts.end(), layout_.sizes.size() + layout_.counters.size(), 1);
     watch_->begin_fill(std::move(counts));
 }
