@@ -146,7 +146,7 @@ private:
 
     // Which of the reads a variable is.
     std::optional<size_t> read_of(uint32_t variable) const {
-        if (opcode(definition(variable)) != spv::Op::OpVariable) return std::nullopt;
+        if (!in_memory(variable)) return std::nullopt;  // A local variable may have a buffer's name.
         const auto named = [&](uint32_t id) {
             const auto name = name_of_.find(id);
             return name == name_of_.end() ? names_.end() : std::find(names_.begin(), names_.end(), name->second);

@@ -156,6 +156,15 @@ TEST_F(ExternalLayoutTest, MayHaveSmallElements) {
     }
 }
 
+TEST_F(ExternalLayoutTest, ALocalVariableMayHaveABuffersName) {
+    settings.count_accesses = 1;
+    copy_layout("linked");
+    const LayoutAccesses expected = render().layout_accesses.value();
+    ASSERT_GT(expected.longest_chain, 3u);
+    edit("layout.glsl", "it = fetch_links(it);", "uint links = fetch_links(it);\n    it = links;");
+    EXPECT_EQ(render().layout_accesses->longest_chain, expected.longest_chain);
+}
+
 TEST_F(ExternalLayoutTest, NamesOfTheStagesAreNotFree) {
     copy_layout("array");
     edit("layout.json", "\"buffers\": [", "\"buffers\": [{ \"name\": \"leaves\", \"type\": \"uint\", \"per\": \"list\" },");
